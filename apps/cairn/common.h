@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/core/progress.h"
+#include "cairn/sequence/sequence.h"
+
+namespace cairn::app {
+
+/// Options that every subcommand has.
+struct CommonOptions {
+  std::string config;                 ///< --config FILE
+  std::vector<std::string> settings;  ///< --set key=value
+  int threads = 0;                    ///< --threads N; 0: all cores
+  std::uint64_t seed = 1;             ///< --seed N
+  bool json = false;                  ///< --json
+  bool quiet = false;                 ///< --quiet
+
+  [[nodiscard]] int thread_count() const;
+};
+
+/// Which of the common options a subcommand really has: an option that would do nothing is not offered.
+struct Offers {
+  bool config = false, threads = false, seed = false, json = true, quiet = true;
+};
+
+void add_common_options(CLI::App& app, CommonOptions& options, const Offers& offers);
+/// --camera, --frames, --without for whatever reads a sequence.
+struct SequenceArguments {
+  std::string folder, camera, frames, without;
+  [[nodiscard]] SequenceOptions options() const;
+};
+void add_sequence_options(CLI::App& app, SequenceArguments& arguments);
+
+/// Parses; an exit code when the program is to end here (0 after --help, 2 after wrong usage).
+[[nodiscard]] std::optional<int> parse(CLI::App& app, int argc, char** argv);
+
+/// A bar on stderr with rate and time left on a terminal, a line every few seconds elsewhere, nothing with
+/// --quiet. Installs the Ctrl-C handler: the first asks to stop, a second ends the program.
+[[nodiscard]] std::unique_ptr<Progress> make_progress(const CommonOptions& options);
+
+}  // namespace cairn::app

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/core/executor.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "cairn/core/error.h"
+
+namespace cairn {
+
+struct Executor::Arena {
+  explicit Arena(int threads)
+      : limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads)),
+        arena(threads) {}
+  tbb::global_control limit;  // so that more threads than cores can be asked for, as the tests do
+  tbb::task_arena arena;
+};
+
+Executor::Executor(int threads) : threads_(threads) {
+  require(threads >= 1, "an executor needs at least one thread");
+  if (threads > 1) arena_ = std::make_unique<Arena>(threads);
+}
+
+Executor::~Executor() = default;
+
+void Executor::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
+  if (!arena_) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  arena_->arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+                      });
+  });
+}
+
+void Executor::for_each_chunk(std::size_t count, std::size_t grain,
+                              const std::function<void(std::size_t, std::size_t)>& body) const {
+  require(grain > 0, "chunks need a grain above 0");
+  const std::size_t chunks = (count + grain - 1) / grain;
+  for_each(chunks, [&](std::size_t c) { body(c * grain, std::min(count, (c + 1) * grain)); });
+}
+
+void Executor::run_pipeline(std::size_t count,
+                            const std::function<std::shared_ptr<void>(std::size_t)>& produce,
+                            const std::function<bool(std::size_t, void*)>& consume) const {
+  if (!arena_) {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!consume(i, produce(i).get())) return;
+    }
+    return;
+  }
+  struct Token {
+    std::size_t index = 0;
+    std::shared_ptr<void> item;
+  };
+  std::size_t next = 0;
+  std::atomic<bool> stopped = false;  // written by the last stage, read by the first
+  const auto source = [&](tbb::flow_control& flow) -> Token {
+    if (stopped || next == count) {
+      flow.stop();
+      return {};
+    }
+    return {next++, nullptr};
+  };
+  const auto make = [&](Token token) -> Token {
+    if (!stopped) token.item = produce(token.index);
+    return token;
+  };
+  const auto use = [&](const Token& token) {
+    if (!stopped && !consume(token.index, token.item.get())) stopped = true;
+  };
+  arena_->arena.execute([&] {
+    tbb::parallel_pipeline(static_cast<std::size_t>(2 * threads_),
+                           tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, source) &
+                               tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, make) &
+                               tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, use));
+  });
+}
+
+}  // namespace cairn

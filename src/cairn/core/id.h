@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+namespace cairn {
+
+/// An index that cannot be mixed up with an index of another kind.
+template <class Tag>
+struct Id {
+  std::int32_t value = -1;
+
+  [[nodiscard]] bool valid() const { return value >= 0; }
+  auto operator<=>(const Id&) const = default;
+};
+
+using FrameId = Id<struct FrameTag>;        ///< position of a frame in its sequence, from 0
+using KeyframeId = Id<struct KeyframeTag>;  ///< number of a keyframe in its map, from 0
+using LandmarkId = Id<struct LandmarkTag>;  ///< number of a landmark in its map, from 0
+
+}  // namespace cairn

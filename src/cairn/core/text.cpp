@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/core/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
+
+std::vector<std::string_view> split_fields(std::string_view text) {
+  text = text.substr(0, text.find('#'));
+  std::vector<std::string_view> fields;
+  for (std::size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    fields.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlanks, end);
+  }
+  return fields;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substituted, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+TextFile::TextFile(const std::filesystem::path& path) : path_(path), contents_(read_file(path)) {
+  const std::string_view all = contents_;
+  int number = 0;
+  for (std::size_t begin = 0; begin < all.size();) {
+    const std::size_t end = std::min(all.find('\n', begin), all.size());
+    ++number;
+    auto fields = split_fields(all.substr(begin, end - begin));
+    if (!fields.empty()) lines_.push_back({number, std::move(fields)});
+    begin = end + 1;
+  }
+}
+
+void TextFile::fail(const TextLine& line, std::string expected, std::string found, std::string remedy) const {
+  throw InputError({path_.string(), line.number, std::move(expected), std::move(found), std::move(remedy)});
+}
+
+void TextFile::expect_fields(const TextLine& line, std::size_t count, std::string_view layout) const {
+  if (line.fields.size() == count) return;
+  fail(line, fmt::format("{} values ({})", count, layout), fmt::format("{}", line.fields.size()),
+       "Mend or delete the line.");
+}
+
+double TextFile::number(const TextLine& line, std::size_t field, std::string_view what) const {
+  double value = 0;
+  if (field < line.fields.size() && parse_number(line.fields[field], value)) return value;
+  fail(line, fmt::format("a number for {}", what),
+       field < line.fields.size() ? fmt::format("'{}'", line.fields[field]) : "nothing",
+       "Mend or delete the line.");
+}
+
+std::int64_t TextFile::integer(const TextLine& line, std::size_t field, std::string_view what) const {
+  std::int64_t value = 0;
+  if (field < line.fields.size() && parse_integer(line.fields[field], value)) return value;
+  fail(line, fmt::format("a whole number for {}", what),
+       field < line.fields.size() ? fmt::format("'{}'", line.fields[field]) : "nothing",
+       "Mend or delete the line.");
+}
+
+bool parse_number(std::string_view text, double& value) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+
+bool parse_integer(std::string_view text, std::int64_t& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool parse_stamp(std::string_view text, std::int64_t& stamp_ns) {
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+  constexpr std::int64_t kMaxSeconds = 9'000'000'000;
+  const std::size_t dot = text.find('.');
+  const std::string_view whole = text.substr(0, dot);
+  const std::string_view fraction = dot == std::string_view::npos ? "" : text.substr(dot + 1);
+  std::int64_t seconds = 0;
+  const bool plain =
+      !whole.empty() && whole[0] != '-' && parse_integer(whole, seconds) && fraction.size() <= 18 &&
+      std::all_of(fraction.begin(), fraction.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (!plain) {  // an exponent or a sign: a double is exact enough for what writes stamps so
+    double value = 0;
+    if (!parse_number(text, value) || std::abs(value) > static_cast<double>(kMaxSeconds)) return false;
+    stamp_ns = std::llround(value * 1e9);
+    return true;
+  }
+  if (seconds > kMaxSeconds) return false;
+  std::int64_t nanoseconds = 0;
+  for (std::size_t i = 0; i < 9; ++i)
+    nanoseconds = 10 * nanoseconds + (i < fraction.size() ? fraction[i] - '0' : 0);
+  if (fraction.size() > 9 && fraction[9] >= '5') ++nanoseconds;
+  stamp_ns = seconds * kNanosecondsPerSecond + nanoseconds;
+  return true;
+}
+
+std::string format_stamp(std::int64_t stamp_ns) {
+  const std::uint64_t magnitude =
+      stamp_ns < 0 ? 0 - static_cast<std::uint64_t>(stamp_ns) : static_cast<std::uint64_t>(stamp_ns);
+  return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", magnitude / 1'000'000'000,
+                     magnitude % 1'000'000'000);
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string>& known) {
+  require(!known.empty(), "nearest_name needs names to choose from");
+  return *std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+}
+
+}  // namespace cairn

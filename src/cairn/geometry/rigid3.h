@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace cairn {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// A rigid transform target_from_source: point_in_target = rotation * point_in_source + translation.
+struct Rigid3 {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< Hamilton, unit
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();         ///< metres
+
+  [[nodiscard]] Rigid3 inverse() const {
+    const Eigen::Quaterniond inverted = rotation.conjugate();
+    return {inverted, -(inverted * translation)};
+  }
+  [[nodiscard]] Eigen::Matrix3d matrix3() const { return rotation.toRotationMatrix(); }
+};
+
+[[nodiscard]] inline Eigen::Vector3d operator*(const Rigid3& target_from_source,
+                                               const Eigen::Vector3d& point) {
+  return target_from_source.rotation * point + target_from_source.translation;
+}
+
+/// a_from_c = a_from_b * b_from_c; the rotation is normalised, so that long chains stay rotations.
+[[nodiscard]] inline Rigid3 operator*(const Rigid3& a_from_b, const Rigid3& b_from_c) {
+  return {(a_from_b.rotation * b_from_c.rotation).normalized(),
+          a_from_b.rotation * b_from_c.translation + a_from_b.translation};
+}
+
+/// The rotation of `rotation_vector` = axis * angle (radians). Rodrigues; exact series near zero.
+[[nodiscard]] Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& rotation_vector);
+/// Inverse of rotation_exp, angle in [0, pi].
+[[nodiscard]] Eigen::Vector3d rotation_log(const Eigen::Quaterniond& rotation);
+/// Angle of a rotation, radians in [0, pi].
+[[nodiscard]] double rotation_angle(const Eigen::Quaterniond& rotation);
+
+/// Left perturbation used by all solvers here, in the order (rotation, translation):
+/// exp(w) * R and exp(w) * t + v for xi = (w, v). The translation part is not multiplied by the left
+/// Jacobian.
+[[nodiscard]] Rigid3 perturb_left(const Vector6d& xi, const Rigid3& target_from_source);
+
+/// Matrix with skew(a) * b = a x b.
+[[nodiscard]] inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Rotation angle (radians, at most pi) plus length of the translation (metres): the one number by which the
+/// keyframe decision measures motion.
+[[nodiscard]] double motion_norm(const Rigid3& motion);
+
+}  // namespace cairn

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/geometry/camera.h"
+#include "cairn/geometry/rigid3.h"
+
+namespace cairn {
+
+/// How depth is stored, and by which camera it was seen.
+struct DepthCalibration {
+  double scale = 0;  ///< units per metre
+  std::vector<std::uint16_t> invalid{0};
+  std::optional<Camera> camera;  ///< only where depth is not registered to colour
+  Rigid3 camera_from_depth;
+};
+
+enum class PosesAre { camera, depth };
+
+/// What camera.yaml says (docs: README, "Calibration").
+struct Calibration {
+  Camera camera;                          ///< colour or left camera
+  std::optional<double> baseline;         ///< rectified stereo, metres
+  std::optional<DepthCalibration> depth;  ///< RGB-D
+  PosesAre poses_are = PosesAre::camera;  ///< which camera the given poses belong to
+  double rate_hz = 30.0;                  ///< for formats without time stamps
+};
+
+/// InputError with the line for an unknown key, a missing one, fx = 0, a scale of 0, a wrong type.
+[[nodiscard]] Calibration read_calibration(const std::filesystem::path& path);
+[[nodiscard]] std::string format_calibration(const Calibration& calibration);
+/// tum-fr1, tum-fr2, tum-fr3: the cameras of the TUM RGB-D benchmark, depth 5000 units per metre.
+[[nodiscard]] std::optional<Calibration> known_calibration(const std::string& name);
+
+}  // namespace cairn

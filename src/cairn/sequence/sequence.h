@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/core/id.h"
+#include "cairn/image/image.h"
+#include "cairn/sequence/calibration.h"
+#include "cairn/sequence/trajectory.h"
+
+namespace cairn {
+
+/// Where one frame's images lie. Paths that the format does not have are empty.
+struct FrameFiles {
+  std::int64_t stamp_ns = 0;
+  std::int64_t number = 0;  ///< the number in the file names, or the position where there is none
+  std::filesystem::path color;
+  std::filesystem::path depth;
+  std::filesystem::path right;
+};
+
+/// How the frames were found, for `cairn info` and warnings.
+struct SequenceReport {
+  std::int64_t color_images = 0;
+  std::int64_t depth_images = 0;
+  std::int64_t associated = 0;  ///< colour images that got a depth image
+  double max_stamp_gap_s = 0;   ///< largest |colour stamp - depth stamp| of a pair
+};
+
+/// A recording on disk: which images, when, seen by which cameras; the images are decoded by FrameLoader.
+struct Sequence {
+  std::filesystem::path folder;
+  std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI"
+  Calibration calibration;
+  std::vector<FrameFiles> frames;  ///< stamps strictly increasing
+  std::optional<Trajectory>
+      truth;  ///< world_from_camera of the colour (left) camera, where the format carries it
+  SequenceReport report;
+};
+
+/// Half-open range of frames by position, as a Python slice A:B[:S]; negative numbers count from the end.
+struct FrameRange {
+  std::optional<std::int64_t> begin, end;
+  std::int64_t step = 1;
+};
+
+/// "10:200", ":50", "::2". InputError naming `option` otherwise.
+[[nodiscard]] FrameRange parse_frame_range(const std::string& text, const std::string& option);
+
+struct SequenceOptions {
+  std::string camera;  ///< path of a camera.yaml, or tum-fr1|tum-fr2|tum-fr3; empty: the sequence's own
+  std::optional<Calibration> calibration;  ///< given by a parameter file; goes before all others
+  std::string rgb_dir, rgb_extension;      ///< numbered files, where given
+  std::string depth_dir, depth_extension;
+  std::optional<std::int64_t> start_index, end_index;  ///< file numbers, inclusive
+  double max_stamp_gap_s = 0.02;      ///< TUM: largest difference of an associated pair (as the TUM tools)
+  std::optional<FrameRange> frames;   ///< only these
+  std::optional<FrameRange> without;  ///< not these
+};
+
+/// Finds out the format and lists the frames. InputError for whatever is wrong.
+[[nodiscard]] Sequence open_sequence(const std::filesystem::path& folder,
+                                     const SequenceOptions& options = {});
+
+/// The poses a user names by --poses, or the sequence's own truth when `path` is empty: world_from_camera,
+/// one for each frame that has one (nullopt elsewhere). TUM files are associated by time (nearest, at most
+/// `max_gap_s`); a file whose first column holds the sequence's frame numbers is associated by number.
+[[nodiscard]] std::vector<std::optional<Rigid3>> poses_of_frames(const Sequence& sequence,
+                                                                 const std::filesystem::path& path,
+                                                                 double max_gap_s = 0.02);
+
+/// One decoded frame.
+struct Frame {
+  FrameId id;
+  std::int64_t stamp_ns = 0;
+  GrayImage gray;
+  DepthImage depth;  ///< registered to the colour camera, metres; empty where the sequence has none
+};
+
+/// Decodes frames of one sequence; safe to call from several threads.
+class FrameLoader {
+ public:
+  explicit FrameLoader(const Sequence& sequence);
+  ~FrameLoader();
+  /// InputError for an image that cannot be decoded, or whose size is not the calibration's.
+  [[nodiscard]] Frame load(FrameId id) const;
+  [[nodiscard]] RgbImage load_color(FrameId id) const;
+  [[nodiscard]] DepthImage load_depth(FrameId id) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cairn
