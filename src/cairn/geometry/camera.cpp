@@ -36,7 +36,7 @@ std::optional<Eigen::Vector2d> undistort_radtan(const std::array<double, 5>& d,
     const Eigen::Vector2d error = distort_radtan(d, p) - distorted;
     if (error.squaredNorm() < 1e-24) return p;
     const Eigen::Matrix2d j = distort_radtan_jacobian(d, p);
-    const double determinant = j.determinant();
+    const double determinant = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
     if (std::abs(determinant) < 1e-6) return std::nullopt;
     p -= Eigen::Vector2d(j(1, 1) * error.x() - j(0, 1) * error.y(),
                          j(0, 0) * error.y() - j(1, 0) * error.x()) /

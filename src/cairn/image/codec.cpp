@@ -1,1 +1,189 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cairn/image/codec.h"
+
+#include <fmt/format.h>
+#include <turbojpeg.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/text.h"
+#include "cairn/image/png_codec.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+using std::string_view_literals::operator""sv;
+
+constexpr int kMaxSide = 32768;
+
+[[noreturn]] void fail(const fs::path& path, std::string expected, std::string found) {
+  throw InputError({path.string(), 0, std::move(expected), std::move(found),
+                    "Record or convert the image again, or leave the frame out."});
+}
+
+bool is_png(std::string_view bytes) {
+  return bytes.starts_with("\x89PNG\r\n\x1a\n"sv);
+}
+bool is_jpeg(std::string_view bytes) {
+  return bytes.starts_with("\xff\xd8\xff"sv);
+}
+bool is_pnm(std::string_view bytes) {
+  return bytes.starts_with("P5"sv) || bytes.starts_with("P6"sv);
+}
+
+/// A truncated JPEG only warns; its end marker is missing.
+bool has_jpeg_end(std::string_view bytes) {
+  return bytes.rfind("\xff\xd9"sv) != std::string_view::npos;
+}
+
+DecodedImage decode_jpeg(const fs::path& path, std::string_view bytes, bool gray) {
+  const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  DecodedImage image;
+  int subsampling = 0, colorspace = 0;
+  if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &image.width, &image.height, &subsampling,
+                          &colorspace) != 0 ||
+      image.width > kMaxSide || image.height > kMaxSide) {
+    fail(path, "a JPEG image", tjGetErrorStr2(decoder.get()));
+  }
+  image.channels = gray ? 1 : 3;
+  image.bytes_per_sample = 1;
+  image.samples.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                       static_cast<std::size_t>(image.channels));
+  const int status = tjDecompress2(decoder.get(), data, bytes.size(), image.samples.data(), image.width, 0,
+                                   image.height, gray ? TJPF_GRAY : TJPF_RGB, 0);
+  const bool broken = status != 0 && (tjGetErrorCode(decoder.get()) == TJERR_FATAL || !has_jpeg_end(bytes));
+  if (broken) fail(path, "a whole JPEG image", tjGetErrorStr2(decoder.get()));
+  return image;
+}
+
+/// Header fields of PNM: white space and '#' comments between them, one white space before the samples.
+std::optional<std::int64_t> next_pnm_number(std::string_view bytes, std::size_t& position) {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  while (position < bytes.size() &&
+         (kBlanks.find(bytes[position]) != std::string_view::npos || bytes[position] == '#')) {
+    position = bytes[position] == '#' ? std::min(bytes.find('\n', position), bytes.size()) : position + 1;
+  }
+  const std::size_t begin = position;
+  while (position < bytes.size() && bytes[position] >= '0' && bytes[position] <= '9') ++position;
+  std::int64_t value = 0;
+  if (!parse_integer(bytes.substr(begin, position - begin), value)) return std::nullopt;
+  return value;
+}
+
+DecodedImage decode_pnm(const fs::path& path, std::string_view bytes) {
+  std::size_t position = 2;
+  const auto width = next_pnm_number(bytes, position);
+  const auto height = next_pnm_number(bytes, position);
+  const auto maximum = next_pnm_number(bytes, position);
+  if (!width || !height || !maximum || *width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide ||
+      *maximum < 1 || *maximum > 65535) {
+    fail(path, "a PNM header: width, height and maximum", "another");
+  }
+  ++position;
+  DecodedImage image{static_cast<int>(*width),
+                     static_cast<int>(*height),
+                     bytes[1] == '6' ? 3 : 1,
+                     *maximum > 255 ? 2 : 1,
+                     {}};
+  const std::size_t size =
+      static_cast<std::size_t>(*width * *height * image.channels * image.bytes_per_sample);
+  if (position > bytes.size() || bytes.size() - position < size) {
+    fail(path, fmt::format("{} bytes of pixels", size),
+         fmt::format("{}", bytes.size() - std::min(position, bytes.size())));
+  }
+  image.samples.resize(size);
+  std::memcpy(image.samples.data(), bytes.data() + position, size);
+  if (image.bytes_per_sample == 2) {  // PNM is big-endian
+    for (std::size_t i = 0; i < size; i += 2) {
+      const auto value = static_cast<std::uint16_t>(image.samples[i] << 8 | image.samples[i + 1]);
+      std::memcpy(&image.samples[i], &value, 2);
+    }
+  }
+  return image;
+}
+
+DecodedImage decode(const fs::path& path, bool gray) {
+  const std::string bytes = read_file(path);
+  if (is_jpeg(bytes)) return decode_jpeg(path, bytes, gray);
+  if (is_pnm(bytes)) return decode_pnm(path, bytes);
+  if (!is_png(bytes)) {
+    fail(path, "a PNG, JPEG, PGM or PPM image", bytes.empty() ? "an empty file" : "another kind of file");
+  }
+  DecodedImage image;
+  const std::string wrong = decode_png(bytes, image);
+  if (!wrong.empty()) fail(path, "a whole PNG image", wrong);
+  return image;
+}
+
+std::string describe(const DecodedImage& image) {
+  return fmt::format("{} channel{} of {} bit", image.channels, image.channels == 1 ? "" : "s",
+                     8 * image.bytes_per_sample);
+}
+
+/// Rec. 601 luma, rounded.
+std::uint8_t luma(const std::uint8_t* rgb) {
+  return static_cast<std::uint8_t>((299 * rgb[0] + 587 * rgb[1] + 114 * rgb[2] + 500) / 1000);
+}
+
+template <class Pixel>
+void write_encoded(const fs::path& path, const Image<Pixel>& image, int channels, int bytes_per_sample) {
+  require(!image.empty(), "an image to write has pixels");
+  DecodedImage raw{image.width(), image.height(), channels, bytes_per_sample, {}};
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(image.data());
+  raw.samples.assign(begin, begin + image.size() * sizeof(Pixel));
+  write_file(path, encode_png(raw));
+}
+
+}  // namespace
+
+GrayImage read_gray(const fs::path& path) {
+  const DecodedImage raw = decode(path, true);
+  if (raw.bytes_per_sample != 1) fail(path, "an image of 8 bit per channel", describe(raw));
+  GrayImage image(raw.width, raw.height);
+  if (raw.channels == 1) {
+    std::copy(raw.samples.begin(), raw.samples.end(), image.data());
+  } else {
+    for (std::size_t i = 0; i < image.size(); ++i) image.data()[i] = luma(&raw.samples[3 * i]);
+  }
+  return image;
+}
+
+RgbImage read_rgb(const fs::path& path) {
+  const DecodedImage raw = decode(path, false);
+  if (raw.bytes_per_sample != 1) fail(path, "an image of 8 bit per channel", describe(raw));
+  RgbImage image(raw.width, raw.height);
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    const std::uint8_t* p = &raw.samples[i * static_cast<std::size_t>(raw.channels)];
+    image.data()[i] = raw.channels == 3 ? Rgb8{p[0], p[1], p[2]} : Rgb8{p[0], p[0], p[0]};
+  }
+  return image;
+}
+
+RawDepthImage read_depth(const fs::path& path) {
+  const DecodedImage raw = decode(path, false);
+  if (raw.channels != 1 || raw.bytes_per_sample != 2)
+    fail(path, "a depth image: 1 channel of 16 bit", describe(raw));
+  RawDepthImage image(raw.width, raw.height);
+  std::memcpy(image.data(), raw.samples.data(), raw.samples.size());
+  return image;
+}
+
+void write_png(const fs::path& path, const GrayImage& image) {
+  write_encoded(path, image, 1, 1);
+}
+void write_png(const fs::path& path, const RgbImage& image) {
+  write_encoded(path, image, 3, 1);
+}
+void write_png(const fs::path& path, const RawDepthImage& image) {
+  write_encoded(path, image, 1, 2);
+}
+
+}  // namespace cairn

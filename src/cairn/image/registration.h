@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cairn/geometry/camera.h"
@@ -22,11 +23,18 @@ class DepthRegistration {
   [[nodiscard]] DepthImage operator()(const DepthImage& depth) const;
 
  private:
+  struct Footprint {
+    int u_begin, u_end, v_begin, v_end;
+  };
+  [[nodiscard]] std::optional<Eigen::Vector2d> color_pixel(const Eigen::Vector3d& rotated_ray,
+                                                           double depth) const;
+  [[nodiscard]] std::optional<Footprint> footprint(std::size_t upper_left, double depth) const;
+
   Camera depth_camera_;
   Camera color_camera_;
-  Rigid3 camera_from_depth_;
-  std::vector<Eigen::Vector2d>
-      rays_;  // (x/z, y/z) of each depth pixel's upper left corner, one more per row and column
+  Eigen::Vector3d translation_;
+  // R * (x/z, y/z, 1) of each depth pixel's upper left corner, one more per row and column.
+  std::vector<Eigen::Vector3d> rotated_rays_;
 };
 
 }  // namespace cairn

@@ -37,6 +37,7 @@ struct Sequence {
   std::filesystem::path folder;
   std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI"
   Calibration calibration;
+  std::string calibration_source;  ///< where the calibration comes from, for people
   std::vector<FrameFiles> frames;  ///< stamps strictly increasing
   std::optional<Trajectory>
       truth;  ///< world_from_camera of the colour (left) camera, where the format carries it

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "cairn/sequence/sequence.h"
+
+namespace cairn {
+
+/// One pair of functions per format. `is_...` looks at names only; `list_...` fills frames, truth (of the
+/// camera that the format's poses belong to), report and the format's own calibration if it carries one.
+[[nodiscard]] bool is_tum(const std::filesystem::path& folder);
+void list_tum(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
+
+[[nodiscard]] bool is_seven_scenes(const std::filesystem::path& folder);
+void list_seven_scenes(const std::filesystem::path& folder, Sequence& sequence);
+
+/// Files named by their number in two folders, named by the options or by habit (rgb_index and dep_index, rgb
+/// and depth, ...); poses in trajectory.txt, by number.
+[[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);
+void list_numbered(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
+
+/// Stamp of file number `number` where the format has no time: number / rate_hz.
+[[nodiscard]] std::int64_t stamp_of_number(std::int64_t number, double rate_hz);
+
+/// A TUM trajectory file whose first column holds whole numbers only: frame numbers, not seconds.
+[[nodiscard]] bool has_frame_numbers(const std::filesystem::path& path);
+
+}  // namespace cairn

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+#include "cairn/sequence/formats.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FolderPair {
+  std::string color, depth;
+};
+
+const std::array<FolderPair, 5> kHabits{{{"rgb_index", "dep_index"},
+                                         {"rgb_png", "depth_png"},
+                                         {"rgb", "depth"},
+                                         {"color", "depth"},
+                                         {"image", "depth"}}};
+
+fs::path resolve(const fs::path& folder, const std::string& name) {
+  const fs::path path(name);
+  return path.is_absolute() ? path : folder / path;
+}
+
+std::string without_dot(const std::string& extension) {
+  return extension.starts_with('.') ? extension.substr(1) : extension;
+}
+
+/// Files <number>.<extension> by number; any extension where none is given.
+std::map<std::int64_t, fs::path> numbered_files(const fs::path& folder, const std::string& extension) {
+  if (!fs::is_directory(folder)) {
+    throw InputError({folder.string(), 0, "a folder with numbered images", "no such folder",
+                      "Check rgb_dir and depth_dir."});
+  }
+  std::map<std::int64_t, fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::int64_t number = 0;
+    const bool fits = extension.empty() || entry.path().extension() == fmt::format(".{}", without_dot(extension));
+    if (fits && parse_integer(entry.path().stem().string(), number) && number >= 0)
+      files[number] = entry.path();
+  }
+  return files;
+}
+
+bool has_numbered_files(const fs::path& folder) {
+  return fs::is_directory(folder) && !numbered_files(folder, "").empty();
+}
+
+std::optional<FolderPair> folders(const fs::path& folder, const SequenceOptions& options) {
+  if (!options.rgb_dir.empty() && !options.depth_dir.empty())
+    return FolderPair{options.rgb_dir, options.depth_dir};
+  for (const FolderPair& habit : kHabits) {
+    if (has_numbered_files(folder / habit.color) && has_numbered_files(folder / habit.depth)) return habit;
+  }
+  return std::nullopt;
+}
+
+void read_truth(const fs::path& path, Sequence& sequence) {
+  if (!fs::exists(path) || !has_frame_numbers(path)) return;
+  Trajectory truth = read_tum_trajectory(path);
+  for (StampedPose& pose : truth)
+    pose.stamp_ns = stamp_of_number(pose.stamp_ns / 1'000'000'000, sequence.calibration.rate_hz);
+  sequence.truth = std::move(truth);
+}
+
+}  // namespace
+
+std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
+  return std::llround(static_cast<double>(number) * 1e9 / rate_hz);
+}
+
+bool has_frame_numbers(const fs::path& path) {
+  const TextFile file(path);
+  return std::all_of(file.lines().begin(), file.lines().end(), [](const TextLine& line) {
+    std::int64_t number = 0;
+    return parse_integer(line.fields[0], number);
+  });
+}
+
+bool is_numbered(const fs::path& folder, const SequenceOptions& options) {
+  return folders(folder, options).has_value();
+}
+
+void list_numbered(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
+  sequence.format = "numbered";
+  const FolderPair names = folders(folder, options).value();
+  const auto color = numbered_files(resolve(folder, names.color), options.rgb_extension);
+  const auto depth = numbered_files(resolve(folder, names.depth), options.depth_extension);
+  for (const auto& [number, path] : color) {
+    const auto partner = depth.find(number);
+    if (partner == depth.end()) continue;
+    sequence.frames.push_back(
+        {stamp_of_number(number, sequence.calibration.rate_hz), number, path, partner->second, {}});
+  }
+  sequence.report.color_images = static_cast<std::int64_t>(color.size());
+  sequence.report.depth_images = static_cast<std::int64_t>(depth.size());
+  sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
+  read_truth(folder / "trajectory.txt", sequence);
+}
+
+}  // namespace cairn
