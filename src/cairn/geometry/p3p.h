@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+#include "cairn/geometry/rigid3.h"
+
+namespace cairn {
+
+/// Up to four poses camera_from_world that see three points in the directions of three rays.
+struct P3pSolutions {
+  std::array<Rigid3, 4> camera_from_world;
+  int count = 0;
+};
+
+/// The perspective-three-point problem after Grunert 1841, in the form of Haralick et al., IJCV 13(3), 1994:
+/// a quartic in the ratio of two distances, its roots polished on the law of cosines. `rays` are unit vectors
+/// in the camera frame. No solution for points on one line or in one place.
+[[nodiscard]] P3pSolutions solve_p3p(const std::array<Eigen::Vector3d, 3>& points_in_world,
+                                     const std::array<Eigen::Vector3d, 3>& rays);
+
+/// Real roots of c[4] x^4 + ... + c[0], each polished by Newton steps; returns their number.
+[[nodiscard]] int solve_quartic(const std::array<double, 5>& coefficients, std::array<double, 4>& roots);
+
+}  // namespace cairn

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+
+#include "cairn/geometry/camera.h"
+#include "cairn/geometry/rigid3.h"
+
+namespace cairn {
+
+/// One observation of a landmark: column, row and disparity in the (undistorted) left image. Stereo measures
+/// the disparity; from a depth z it is fx * baseline / z with a virtual baseline; without either it is NaN.
+struct Observation {
+  double u = 0, v = 0;                                  ///< pixels
+  double d = std::numeric_limits<double>::quiet_NaN();  ///< pixels
+  double sigma_px = 1;                                  ///< standard deviation of u and of v
+  double sigma_d_px = 1;                                ///< standard deviation of d
+
+  [[nodiscard]] bool has_disparity() const { return d == d; }
+};
+
+/// A pinhole camera with a second one `baseline` metres to its right: what every residual here projects with.
+struct Rig {
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels
+  double baseline = 0;                    ///< metres, above 0
+
+  [[nodiscard]] double disparity(double depth) const { return fx * baseline / depth; }
+  [[nodiscard]] double depth(double disparity_px) const { return fx * baseline / disparity_px; }
+  /// (u, v, d) of a point in front of the camera: u = fx x/z + cx, v = fy y/z + cy, d = fx b/z.
+  [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_in_camera) const {
+    const double inverse_depth = 1.0 / point_in_camera.z();
+    return {fx * point_in_camera.x() * inverse_depth + cx, fy * point_in_camera.y() * inverse_depth + cy,
+            fx * baseline * inverse_depth};
+  }
+  [[nodiscard]] Eigen::Vector3d point_at(double u, double v, double depth) const {
+    return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};
+  }
+};
+
+/// Squared error of an observation in units of its standard deviations: (du^2 + dv^2) / sigma^2 [+ dd^2 /
+/// sigma_d^2]. Infinite for a point that is not in front of the camera.
+[[nodiscard]] inline double squared_error(const Rig& rig, const Eigen::Vector3d& point_in_camera,
+                                          const Observation& seen) {
+  constexpr double kMinDepth = 1e-6;
+  if (!(point_in_camera.z() > kMinDepth)) return std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d projected = rig.project(point_in_camera);
+  const double du = (projected.x() - seen.u) / seen.sigma_px;
+  const double dv = (projected.y() - seen.v) / seen.sigma_px;
+  const double dd = seen.has_disparity() ? (projected.z() - seen.d) / seen.sigma_d_px : 0.0;
+  return du * du + dv * dv + dd * dd;
+}
+
+/// The 95 % quantile of squared_error for a correct observation: chi-square with 3 or 2 degrees of freedom.
+[[nodiscard]] inline double squared_error_limit(const Observation& seen) {
+  return seen.has_disparity() ? 7.815 : 5.991;
+}
+
+}  // namespace cairn
