@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cairn/map/pose_graph.h"
+
+namespace cairn {
+
+/// Reads a 3D pose graph in g2o's text format (Kuemmerle et al. 2011):
+///
+///     VERTEX_SE3:QUAT id x y z qx qy qz qw
+///     EDGE_SE3:QUAT a b x y z qx qy qz qw  i11 i12 .. i16 i22 .. i66
+///     FIX id [id ..]
+///
+/// with the pose world_from_vertex, the measurement a_from_b and the upper triangle of the information, row
+/// by row, in the order (translation, vector part of the quaternion). Lines may come in any order; vertices
+/// and edges keep theirs. Quaternions are normalised. All edges come with robust = false. InputError, with
+/// the line, for anything else: another number of fields, no finite number, an id that is negative or occurs
+/// twice, an edge or FIX with an unknown vertex, an edge from a vertex to itself, a quaternion far from
+/// length 1, an information matrix with a negative eigenvalue, an unknown tag, 2D graphs, a file without
+/// vertices.
+[[nodiscard]] PoseGraph read_g2o(const std::filesystem::path& path);
+
+/// The graph in the same format, readable by g2o and GTSAM. Numbers are the shortest that read back to the
+/// same bits. The robust flags are not stored: the format has no place for them.
+[[nodiscard]] std::string format_g2o(const PoseGraph& graph);
+
+}  // namespace cairn

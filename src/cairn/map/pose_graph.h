@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "cairn/geometry/rigid3.h"
+
+namespace cairn {
+
+/// Poses and measured relative poses between them; data only. It is optimised by
+/// optimize/pose_graph_optimizer.h and stored by map/g2o_file.h.
+struct PoseGraph {
+  struct Vertex {
+    std::int64_t id = 0;  ///< >= 0, unique in the graph
+    Rigid3 world_from_vertex;
+  };
+
+  /// A measurement of the pose of vertex b in the frame of vertex a.
+  struct Edge {
+    std::int64_t a = 0;  ///< id of a vertex
+    std::int64_t b = 0;  ///< id of another vertex
+    Rigid3 a_from_b;     ///< the measurement
+    /// Inverse covariance of the error (translation in metres, vector part of the quaternion), in g2o's
+    /// order; symmetric, positive semi-definite. The vector part is half the rotation vector for small
+    /// errors: see `information_from_std`.
+    Matrix6d information = Matrix6d::Identity();
+    bool robust = false;  ///< may be wrong (a loop closure): the optimiser's robust kernel applies to it
+  };
+
+  std::vector<Vertex> vertices;
+  std::vector<Edge> edges;
+  std::vector<std::int64_t> fixed;  ///< ids of vertices that must stay where they are; may be empty
+};
+
+/// Information of an edge whose translation has standard deviation `translation_std_m` (metres) along each
+/// axis and whose rotation vector has `rotation_std_rad`: diag(1/st^2, 4/sr^2), because the error is half the
+/// rotation vector. Both > 0.
+[[nodiscard]] Matrix6d information_from_std(double translation_std_m, double rotation_std_rad);
+
+/// Position in `graph.vertices` of each id. PreconditionError where an id occurs twice.
+[[nodiscard]] std::unordered_map<std::int64_t, std::size_t> vertex_positions(const PoseGraph& graph);
+
+/// Flags as robust exactly the edges that do not join two successive vertices: a g2o file does not say which
+/// edges are loop closures, and odometry joins each pose to the next. Returns how many are flagged.
+std::size_t flag_loop_edges_robust(PoseGraph& graph);
+
+}  // namespace cairn
