@@ -258,7 +258,9 @@ PoseGraphReport optimize_pose_graph(PoseGraph& graph, const PoseGraphOptions& op
   set_poses(problem.poses(), graph);
   report.chi2_start = chi2(graph);
   ProgressCallback callback(progress);
+  if (progress != nullptr) progress->start("graph", options.max_iterations, "steps");
   const ceres::Solver::Summary summary = problem.solve(&callback);
+  if (progress != nullptr) progress->finish();
   set_poses(problem.poses(), graph);
   report.chi2_after = chi2(graph);
   report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
