@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cairn/core/id.h"
+#include "cairn/features/features.h"
+#include "cairn/geometry/rig.h"
+
+namespace cairn {
+
+/// A frame reduced to what is tracked: feature i of the image, its observation in the undistorted image, and
+/// its point where the depth is known.
+struct ObservedFrame {
+  FrameId frame;
+  std::int64_t stamp_ns = 0;
+  Features features;
+  std::vector<Observation> observations;          ///< one per feature
+  std::vector<Eigen::Vector3d> points_in_camera;  ///< one per feature; NaN where depth is unknown
+};
+
+struct Keyframe {
+  KeyframeId id;
+  ObservedFrame observed;
+  Rigid3 world_from_camera;
+};
+
+/// Keyframes of one run, data only. The world is the first keyframe's camera frame.
+struct KeyframeMap {
+  Rig rig;
+  std::vector<Keyframe> keyframes;  ///< keyframe k has id k
+};
+
+}  // namespace cairn

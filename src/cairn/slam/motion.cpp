@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/motion.h"
+
+#include "cairn/features/matching.h"
+#include "cairn/geometry/pnp_ransac.h"
+#include "cairn/optimize/pose_only.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kDistanceFloor =
+    10;  // bits, or units of byte descriptors: no match is told from a perfect one below it
+
+struct Pairs {
+  std::vector<Eigen::Vector3d> points_in_reference;
+  std::vector<Observation> seen_in_current;
+};
+
+Pairs pairs_of(const ObservedFrame& reference, const ObservedFrame& current,
+               const std::vector<Match>& matches) {
+  Pairs pairs;
+  for (const Match& match : matches) {
+    const Eigen::Vector3d& point = reference.points_in_camera[static_cast<std::size_t>(match.train)];
+    if (!point.allFinite()) continue;
+    pairs.points_in_reference.push_back(point);
+    pairs.seen_in_current.push_back(current.observations[static_cast<std::size_t>(match.query)]);
+  }
+  return pairs;
+}
+
+std::uint64_t seed_of(const RgbdSlamOptions& options, const ObservedFrame& reference,
+                      const ObservedFrame& current) {
+  const auto pair = static_cast<std::uint64_t>(reference.frame.value) << 32 |
+                    static_cast<std::uint64_t>(current.frame.value);
+  return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
+}
+
+}  // namespace
+
+Motion estimate_motion(const Rig& rig, const ObservedFrame& reference, const ObservedFrame& current,
+                       const RgbdSlamOptions& options) {
+  const auto all = match_mutual(current.features.descriptors, reference.features.descriptors);
+  const auto good = filter_by_distance(all, options.good_match_threshold, kDistanceFloor);
+  const Pairs pairs = pairs_of(reference, current, good);
+  Motion motion;
+  motion.matches = static_cast<int>(pairs.points_in_reference.size());
+  if (motion.matches < options.min_good_match) return motion;
+  RansacOptions ransac;
+  ransac.seed = seed_of(options, reference, current);
+  const PnpResult rough = solve_pnp_ransac(rig, pairs.points_in_reference, pairs.seen_in_current, ransac);
+  if (!rough.found) return motion;
+  const PoseOnlyResult refined =
+      refine_pose(rig, pairs.points_in_reference, pairs.seen_in_current, rough.camera_from_world);
+  motion.inliers = static_cast<int>(refined.inliers.size());
+  motion.found = refined.solved && motion.inliers >= options.min_inliers;
+  motion.current_from_reference = refined.camera_from_world;
+  motion.information = refined.information;
+  motion.norm = motion_norm(motion.current_from_reference);
+  return motion;
+}
+
+const char* to_string(KeyframeDecision decision) {
+  switch (decision) {
+    case KeyframeDecision::too_far:
+      return "too far";
+    case KeyframeDecision::too_close:
+      return "too close";
+    case KeyframeDecision::keyframe:
+      return "keyframe";
+    case KeyframeDecision::not_matched:
+      break;
+  }
+  return "not matched";
+}
+
+KeyframeDecision decide(const Motion& motion, double keyframe_threshold, double max_norm) {
+  if (!motion.found) return KeyframeDecision::not_matched;
+  if (motion.norm >= max_norm) return KeyframeDecision::too_far;
+  if (motion.norm <= keyframe_threshold) return KeyframeDecision::too_close;
+  return KeyframeDecision::keyframe;
+}
+
+}  // namespace cairn

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "cairn/map/keyframe_map.h"
+#include "cairn/slam/options.h"
+
+namespace cairn {
+
+/// The motion between two frames, as far as their features tell.
+struct Motion {
+  bool found = false;  ///< false: fewer than min_good_match matches or min_inliers inliers
+  Rigid3 current_from_reference;
+  Matrix6d information = Matrix6d::Zero();  ///< of the left perturbation (rotation, translation)
+  int matches = 0;
+  int inliers = 0;
+  double norm = 0;  ///< motion_norm: rad + m
+};
+
+/// Matches descriptors, solves P3P in RANSAC and refines on all inliers: points of `reference`, observations
+/// of `current`. Deterministic from (seed, the two frames).
+[[nodiscard]] Motion estimate_motion(const Rig& rig, const ObservedFrame& reference,
+                                     const ObservedFrame& current, const RgbdSlamOptions& options);
+
+/// What a frame's motion against a keyframe means.
+enum class KeyframeDecision {
+  not_matched,  ///< no motion found
+  too_far,      ///< more than max_norm: probably wrong
+  too_close,    ///< tracked, but not worth a keyframe
+  keyframe,     ///< tracked, and a keyframe
+};
+
+[[nodiscard]] const char* to_string(KeyframeDecision decision);
+
+/// The four outcomes by motion.norm; `max_norm` is that of tracking or that of loop closure.
+[[nodiscard]] KeyframeDecision decide(const Motion& motion, double keyframe_threshold, double max_norm);
+
+}  // namespace cairn
