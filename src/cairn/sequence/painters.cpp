@@ -104,7 +104,7 @@ Painter wood(const Color& color) {
   return [=](Canvas& canvas, Random& random) {
     canvas.fill(color);
     canvas.add_noise({0.25, 6, 0.85, 15, 5}, random.next());
-    canvas.scatter({70, 0.004, 0.035, 0.6F, 0.4F}, random);
+    canvas.scatter({110, 0.004, 0.04, 0.7F, 0.4F}, random);
     canvas.shade_borders(0.25, 0.02);
   };
 }
