@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cairn/geometry/rigid3.h"
+
+namespace cairn {
+
+/// A camera's orientation from where it looks: `azimuth` about z from x, `elevation` above the horizon,
+/// `roll` about the optical axis (clockwise as the viewer sees the camera turn), all radians; z is up.
+[[nodiscard]] Eigen::Quaterniond world_from_looking(double azimuth, double elevation, double roll);
+
+/// A closed walk about the middle of a room with a camera in the hand that looks outwards, about and a
+/// little down, and bobs with the steps. Smooth in every derivative: sums of sines with whole periods.
+class RoomPath {
+ public:
+  struct Shape {
+    Eigen::Vector3d center{0, 0, 1.35};  ///< metres; z is the camera's mean height
+    double length = 4.0;                 ///< metres to walk, all loops together
+    double duration = 10.0;              ///< seconds, for the rhythm of the steps
+    int loops = 1;
+    double max_radius = 1.2;  ///< metres, mean of the largest loop; a longer way walks slower
+  };
+
+  explicit RoomPath(const Shape& shape);
+  /// `share` of the way, in [0, 1); at 1 it is where it began.
+  [[nodiscard]] Rigid3 world_from_camera(double share) const;
+
+ private:
+  Shape shape_;
+  double radius_;
+  int steps_;
+};
+
+/// A closed drive around a block: a rounded rectangle whose corners are entered and left gently (the heading
+/// is a smooth step of the way), slower in the corners. Level, in the plane of x and y, anticlockwise.
+class StreetPath {
+ public:
+  struct Shape {
+    double length = 160;        ///< metres, once around
+    double aspect = 1.25;       ///< the long sides' straights over the short sides'
+    double corner_length = 24;  ///< metres of way in a corner
+    double corner_speed = 0.7;  ///< speed in the middle of a corner over that on a straight
+  };
+  struct Place {
+    Eigen::Vector2d position{0, 0};  ///< metres; the block's middle is (0, 0)
+    double heading = 0;              ///< radians about z from x
+  };
+
+  explicit StreetPath(const Shape& shape);
+  /// `share` of the time of one round, in [0, 1].
+  [[nodiscard]] Place at(double share) const;
+  /// Half of the block's extent in x and y, to the middle of the road.
+  [[nodiscard]] const Eigen::Vector2d& half_extent() const { return half_extent_; }
+
+ private:
+  Shape shape_;
+  Eigen::Vector2d half_extent_;
+  std::vector<Place> places_;  // at equal steps of the way
+  std::vector<double> times_;  // when each is reached, last = 1
+};
+
+}  // namespace cairn
