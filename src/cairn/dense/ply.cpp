@@ -34,10 +34,10 @@ class PlyHeader {
  public:
   PlyHeader(const std::filesystem::path& path, std::string_view contents) : path_(path), contents_(contents) {
     if (next() != "ply") fail("a PLY file, which begins with 'ply'", "other contents", "Check the file.");
-    for (Words words; !ended_; words = words_of(next())) {
+    while (!ended_) {
+      if (begin_ >= contents_.size()) fail("end_header", "the end of the file", "The file is cut off.");
+      const Words words = words_of(next());
       if (!words.empty()) declare(words);
-      if (begin_ >= contents_.size() && !ended_)
-        fail("end_header", "the end of the file", "The file is cut off.");
     }
     if (format_.empty()) fail("a format line in the header", "none", "Write the file again.");
     if (elements_ == 0) fail("an element named vertex", "none", "The file holds no points.");

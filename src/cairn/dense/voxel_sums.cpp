@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/dense/voxel_sums.h"
 
-#include <limits>
+#include <cmath>
 
 namespace cairn {
 namespace {
@@ -44,13 +44,12 @@ struct VoxelSums::Row {
   static constexpr std::uint32_t kNoPoint = 0xffffffff;
 
   void fill(const float* depth, const double* ray_x, const double* ray_y, const Rigid3& grid_from_camera,
-            const Eigen::Matrix3d& grid_rotation, double min_depth, double max_depth) {
+            const Eigen::Matrix3d& grid_rotation, float min_depth, float max_depth) {
     const Eigen::Matrix3d& r = grid_rotation;
     const Eigen::Vector3d& t = grid_from_camera.translation;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const double d = depth[i];
-      const bool valid = d > min_depth && d <= max_depth && ray_x[i] == ray_x[i];
-      const double z_in_camera = valid ? d : 0.0;
+      const bool valid = depth[i] > min_depth && depth[i] <= max_depth && !std::isnan(ray_x[i]);
+      const double z_in_camera = valid ? static_cast<double>(depth[i]) : 0.0;
       const double rx = valid ? ray_x[i] : 0.0, ry = valid ? ray_y[i] : 0.0;
       const auto on_grid = [&](int axis) {
         const double along = r(axis, 0) * rx + r(axis, 1) * ry + r(axis, 2);
@@ -119,7 +118,8 @@ void VoxelSums::add_image(const DepthImage& depth, const RgbImage& color, const 
   const Eigen::Matrix3d rotation = world_from_camera.matrix3() * scale;
   Row row(static_cast<std::size_t>(depth.width()));
   for (int v = 0; v < depth.height(); ++v) {
-    row.fill(depth.row(v), rays.x_row(v), rays.y_row(v), grid_from_camera, rotation, min_depth, max_depth);
+    row.fill(depth.row(v), rays.x_row(v), rays.y_row(v), grid_from_camera, rotation,
+             static_cast<float>(min_depth), static_cast<float>(max_depth));
     add_row(row, color.empty() ? nullptr : color.row(v));
   }
 }
