@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cairn/dense/voxel_sums.h"
+
+namespace cairn {
+
+/// A point in the world, metres, with its colour.
+struct CloudPoint {
+  float x = 0, y = 0, z = 0;
+  std::uint8_t r = 0, g = 0, b = 0;
+  bool operator==(const CloudPoint&) const = default;
+};
+
+struct Cloud {
+  std::vector<CloudPoint> points;
+  bool colored = true;  ///< false where the colours mean nothing (a file without them)
+};
+
+/// Corners of the box around all points, metres. Both zero for an empty cloud.
+struct CloudBounds {
+  Eigen::Vector3f low = Eigen::Vector3f::Zero(), high = Eigen::Vector3f::Zero();
+};
+[[nodiscard]] CloudBounds bounds_of(const Cloud& cloud);
+
+struct CloudOptions {
+  double voxel_size = 0.01;  ///< metres: about a Kinect's depth noise at 2 m, so no detail is lost below it
+  double min_depth = 0.1;    ///< metres along the optical axis: nearer is no surface but a broken reading
+  double max_depth = 4.0;    ///< metres: beyond, an RGB-D camera's noise (2.5 to 4 cm) blurs the cloud
+
+  /// InputError naming the field for a voxel of 0, a negative or reversed depth.
+  void validate() const;
+};
+
+/// Fuses frames into one point per voxel: the centroid of all points that fell into it, with their mean
+/// colour. The result does not depend on the order of the frames nor on threads: sums are integers.
+///
+/// One thread: add(depth, color, rays, pose) for each frame. Several: reduce() frames in parallel (it is
+/// const and safe to call from several threads) and add() the reduced ones from one thread.
+class CloudBuilder {
+ public:
+  explicit CloudBuilder(const CloudOptions& options = {});
+
+  /// One frame's points, one per voxel. About 5 ms for 640x480.
+  [[nodiscard]] VoxelSums reduce(const DepthImage& depth, const RgbImage& color, const PixelRays& rays,
+                                 const Rigid3& world_from_camera) const;
+  void add(const VoxelSums& frame) { sums_.add(frame); }
+  void add(const DepthImage& depth, const RgbImage& color, const PixelRays& rays,
+           const Rigid3& world_from_camera) {
+    add(reduce(depth, color, rays, world_from_camera));
+  }
+
+  [[nodiscard]] std::size_t size() const { return sums_.size(); }  ///< points so far
+  /// The cloud, in order of the voxels; the builder is empty afterwards.
+  [[nodiscard]] Cloud take();
+
+ private:
+  CloudOptions options_;
+  VoxelSums sums_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/dense/cloud.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "cairn/core/error.h"
+#include "cairn/core/executor.h"
+#include "cairn/dense/test_scene.h"
+
+namespace cairn {
+namespace {
+
+using test_scene::color_image;
+using test_scene::depth_image;
+using test_scene::world_from_camera;
+
+constexpr int kFrames = 12;
+
+Cloud fuse(int threads) {
+  const PixelRays rays(test_scene::small_camera());
+  CloudBuilder builder({.voxel_size = 0.02});
+  const Executor executor(threads);
+  executor.ordered_pipeline<VoxelSums>(
+      kFrames,
+      [&](std::size_t i) {
+        return builder.reduce(depth_image(i), color_image(), rays, world_from_camera(static_cast<int>(i)));
+      },
+      [&](std::size_t, VoxelSums&& frame) {
+        builder.add(frame);
+        return true;
+      });
+  return builder.take();
+}
+
+/// The same by the plain definition: a map from voxel to sums of doubles.
+struct PlainSum {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero(), color = Eigen::Vector3d::Zero();
+  int count = 0;
+};
+std::map<std::array<int, 3>, PlainSum> fuse_plainly(double voxel_size) {
+  const Camera camera = test_scene::small_camera();
+  std::map<std::array<int, 3>, PlainSum> voxels;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const DepthImage depth = depth_image(static_cast<std::uint64_t>(frame));
+    const RgbImage color = color_image();
+    for (int v = 0; v < depth.height(); ++v) {
+      for (int u = 0; u < depth.width(); ++u) {
+        if (!(depth(u, v) > 0.1F && depth(u, v) <= 4.0F)) continue;
+        const Eigen::Vector3d point =
+            world_from_camera(frame) * *camera.back_project({u, v}, static_cast<double>(depth(u, v)));
+        const Eigen::Array3i key = (point / voxel_size).array().floor().cast<int>();
+        PlainSum& sum = voxels[{key.z(), key.y(), key.x()}];
+        sum.position += point;
+        sum.color += Eigen::Vector3d(color(u, v).r, color(u, v).g, color(u, v).b);
+        ++sum.count;
+      }
+    }
+  }
+  return voxels;
+}
+
+TEST(CloudBuilder, OnePointPerVoxelAtTheCentroidWithTheMeanColour) {
+  constexpr double kVoxel = 0.02;
+  const Cloud cloud = fuse(1);
+  auto plain = fuse_plainly(kVoxel);
+  ASSERT_EQ(cloud.points.size(), plain.size());
+  for (const CloudPoint& point : cloud.points) {
+    const Eigen::Vector3d position = Eigen::Vector3f(point.x, point.y, point.z).cast<double>();
+    const Eigen::Array3i key = (position / kVoxel).array().floor().cast<int>();
+    const auto place = plain.find({key.z(), key.y(), key.x()});
+    ASSERT_NE(place, plain.end());
+    const PlainSum& sum = place->second;
+    EXPECT_LT((position - sum.position / sum.count).norm(), 2e-5);  // fixed point of 1/1024 voxel
+    EXPECT_LE(std::abs(point.r - sum.color.x() / sum.count), 0.5 + 1e-9);
+    EXPECT_LE(std::abs(point.g - sum.color.y() / sum.count), 0.5 + 1e-9);
+    EXPECT_EQ(point.b, 77);
+  }
+}
+
+TEST(CloudBuilder, TheSameAtAnyNumberOfThreads) {
+  const Cloud one = fuse(1);
+  EXPECT_GT(one.points.size(), 1000U);
+  EXPECT_EQ(fuse(2).points, one.points);
+  EXPECT_EQ(fuse(4).points, one.points);
+}
+
+TEST(CloudBuilder, DepthsOutOfRangeAndPixelsWithoutARayAreLeftOut) {
+  Camera camera = test_scene::small_camera();
+  const RgbImage color = color_image();
+  DepthImage depth(64, 48);
+  depth(1, 1) = 0.1F;
+  depth(2, 2) = 4.001F;
+  depth(3, 3) = std::numeric_limits<float>::quiet_NaN();
+  depth(4, 4) = std::numeric_limits<float>::infinity();
+  depth(5, 5) = 4.0F;
+  CloudBuilder builder;
+  builder.add(depth, color, PixelRays(camera), Rigid3{});
+  EXPECT_EQ(builder.size(), 1U);
+  const Cloud cloud = builder.take();
+  EXPECT_EQ(cloud.points.at(0).r, 15);
+  EXPECT_EQ(builder.size(), 0U);
+}
+
+TEST(CloudBuilder, BoundsHoldAllPoints) {
+  const Cloud cloud = {{{1, 2, 3, 0, 0, 0}, {-1, 5, 2, 0, 0, 0}}};
+  const CloudBounds bounds = bounds_of(cloud);
+  EXPECT_EQ(bounds.low, Eigen::Vector3f(-1, 2, 2));
+  EXPECT_EQ(bounds.high, Eigen::Vector3f(1, 5, 3));
+  EXPECT_EQ(bounds_of({}).high, Eigen::Vector3f(0, 0, 0));
+}
+
+TEST(CloudBuilder, RefusesOptionsThatMeanNothing) {
+  EXPECT_THROW(CloudBuilder({.voxel_size = 0}), InputError);
+  EXPECT_THROW(CloudBuilder({.voxel_size = std::nan("")}), InputError);
+  EXPECT_THROW(CloudBuilder({.min_depth = -1}), InputError);
+  try {
+    CloudBuilder({.min_depth = 1, .max_depth = 0.5});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "max_depth: expected a depth above 1 m, found 0.5.\n  4 suits a Kinect.");
+  }
+}
+
+TEST(CloudBuilder, RefusesPosesFarFromTheOrigin) {
+  CloudBuilder builder;
+  Rigid3 far;
+  far.translation = {4e6, 0, 0};
+  EXPECT_THROW(builder.add(depth_image(1), color_image(), PixelRays(test_scene::small_camera()), far),
+               InputError);
+}
+
+}  // namespace
+}  // namespace cairn

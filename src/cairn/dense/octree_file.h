@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "cairn/dense/occupancy.h"
+
+namespace cairn {
+
+/// What an octree file holds.
+enum class OctreeContents {
+  binary,  ///< .bt: occupied, free or unknown (octomap::OcTree)
+  plain,   ///< .ot: log odds (octomap::OcTree)
+  color    ///< .ot: log odds and colour (octomap::ColorOcTree)
+};
+
+/// By the extension: .bt is binary; .ot is coloured where the map is, else plain. InputError for another
+/// extension.
+[[nodiscard]] OctreeContents octree_contents(const std::filesystem::path& path, bool colored);
+
+struct OctreeFileReport {
+  std::int64_t nodes = 0;  ///< of the pruned tree
+  std::int64_t bytes = 0;
+};
+
+/// Writes the map as a pruned octree that OctoMap's own tools read. The file appears when it is complete.
+/// InputError where it cannot be written.
+OctreeFileReport write_octree(const std::filesystem::path& path, const OccupancyGrid& grid,
+                              OctreeContents contents);
+
+}  // namespace cairn
