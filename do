@@ -36,10 +36,9 @@ packages_build=(
   libceres-dev                          # pose graph
   liboctomap-dev                        # octrees
   libcli11-dev                          # the command line
-  libgtest-dev                          # the build description knows the unit tests, too
+  libgtest-dev python3                  # the build description knows the tests, too, which are C++ and Python
 )
 packages_test=(
-  python3          # the checks in tests/ are Python scripts
   universal-ctags  # tests/report_lengths.py measures functions with it
   clang-format-14  # tests/check_format.py
 )

@@ -78,7 +78,7 @@ void Executor::run_pipeline(std::size_t count,
     if (!stopped && !consume(token.index, token.item.get())) stopped = true;
   };
   arena_->arena.execute([&] {
-    tbb::parallel_pipeline(static_cast<std::size_t>(2 * threads_),
+    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
                            tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, source) &
                                tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, make) &
                                tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, use));
