@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <exception>
 
 #include "cairn/core/error.h"
 
@@ -33,12 +34,14 @@ void Executor::for_each(std::size_t count, const std::function<void(std::size_t)
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  arena_->arena.execute([&] {
+  const auto loop = [&] {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                         for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
                       });
-  });
+  };
+  // Isolated: a loop within a pipeline's consumer waits for its own items only, not for another frame's.
+  arena_->arena.execute([&] { tbb::this_task_arena::isolate(loop); });
 }
 
 void Executor::for_each_chunk(std::size_t count, std::size_t grain,
@@ -60,6 +63,7 @@ void Executor::run_pipeline(std::size_t count,
   struct Token {
     std::size_t index = 0;
     std::shared_ptr<void> item;
+    std::exception_ptr failure;  // thrown when its turn comes, as one thread would
   };
   std::size_t next = 0;
   std::atomic<bool> stopped = false;  // written by the last stage, read by the first
@@ -68,17 +72,24 @@ void Executor::run_pipeline(std::size_t count,
       flow.stop();
       return {};
     }
-    return {next++, nullptr};
+    return {next++, nullptr, nullptr};
   };
   const auto make = [&](Token token) -> Token {
-    if (!stopped) token.item = produce(token.index);
+    if (stopped) return token;
+    try {
+      token.item = produce(token.index);
+    } catch (...) {
+      token.failure = std::current_exception();
+    }
     return token;
   };
   const auto use = [&](const Token& token) {
-    if (!stopped && !consume(token.index, token.item.get())) stopped = true;
+    if (stopped) return;
+    if (token.failure) std::rethrow_exception(token.failure);
+    if (!consume(token.index, token.item.get())) stopped = true;
   };
   arena_->arena.execute([&] {
-    tbb::parallel_pipeline(static_cast<std::size_t>(2 * threads_),
+    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
                            tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, source) &
                                tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, make) &
                                tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, use));

@@ -38,7 +38,8 @@ class Executor {
 
   /// Produces items ahead, in parallel, and consumes them one after the other in order: for decoding and
   /// features while another thread tracks. `consume` returns false to stop early; at most
-  /// `2 * threads` items exist at a time.
+  /// `2 * threads` items exist at a time. An exception of `produce` is rethrown when that item's turn comes:
+  /// what was before it is consumed, what is after it is not.
   template <class Item>
   void ordered_pipeline(std::size_t count, const std::function<Item(std::size_t)>& produce,
                         const std::function<bool(std::size_t, Item&&)>& consume) const {

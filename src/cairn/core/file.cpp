@@ -16,8 +16,6 @@ namespace cairn {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::string_view kMarker = ".cairn";
-
 std::string remedy_for(int error_number) {
   switch (error_number) {
     case ENOSPC:
@@ -34,18 +32,30 @@ std::string remedy_for(int error_number) {
   }
 }
 
-[[noreturn]] void fail_writing(const fs::path& path, std::string_view doing, int error_number) {
-  throw InputError(
-      {path.string(), 0, fmt::format("to {}", doing), std::strerror(error_number), remedy_for(error_number)});
+/// The file that a link leads to, so that the link stays and what it leads to is replaced.
+fs::path without_link(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path destination = fs::weakly_canonical(path, error);
+  return error ? path : destination;
 }
 
-void rename_or_fail(const fs::path& from, const fs::path& to) {
+void require_regular_or_absent(const fs::path& path) {
   std::error_code error;
-  fs::rename(from, to, error);
-  if (error) fail_writing(to, "put the finished result in place", error.value());
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::directory)
+    throw InputError({path.string(), 0, "the name of a file to write", "a folder", "Name a file inside it."});
+  if (type != fs::file_type::regular && type != fs::file_type::not_found && type != fs::file_type::none)
+    throw InputError(
+        {path.string(), 0, "the name of a file to write", "a device or pipe", "Name a file on a disk."});
 }
 
 }  // namespace
+
+void fail_writing(const fs::path& path, std::string_view doing, int error_number) {
+  throw InputError(
+      {path.string(), 0, fmt::format("to {}", doing), std::strerror(error_number), remedy_for(error_number)});
+}
 
 std::string read_file(const fs::path& path) {
   std::error_code error;
@@ -77,12 +87,14 @@ fs::path temporary_beside(const fs::path& path) {
 }
 
 void commit_file(const fs::path& temporary, const fs::path& path) {
-  rename_or_fail(temporary, path);
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) fail_writing(path, "put the finished result in place", error.value());
 }
 
-AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)), temporary_(temporary_beside(path_)) {
-  std::error_code error;
-  if (fs::is_directory(path_, error)) fail_writing(path_, "write a file of this name", EISDIR);
+AtomicFile::AtomicFile(const fs::path& path)
+    : path_(without_link(path)), temporary_(temporary_beside(path_)) {
+  require_regular_or_absent(path_);
   file_ = std::fopen(temporary_.c_str(), "wb");
   if (file_ == nullptr) fail("create the file");
 }
@@ -107,7 +119,7 @@ void AtomicFile::commit() {
   const bool flushed = std::fflush(file_) == 0;
   const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
   if (!flushed || !closed) fail("write the file");
-  rename_or_fail(temporary_, path_);
+  commit_file(temporary_, path_);
   temporary_.clear();
 }
 
@@ -115,43 +127,6 @@ void write_file(const fs::path& path, std::string_view contents) {
   AtomicFile file(path);
   file.write(contents);
   file.commit();
-}
-
-OutputFolder::OutputFolder(const fs::path& target) : target_(target) {
-  if (!target_.has_filename()) target_ = target_.parent_path();
-  std::error_code error;
-  if (fs::exists(target_, error)) {
-    if (!fs::is_directory(target_, error)) {
-      throw InputError(
-          {target_.string(), 0, "a folder to write to", "a file of that name", "Choose another -o."});
-    }
-    if (!fs::is_empty(target_, error) && !fs::exists(target_ / kMarker, error)) {
-      throw InputError({target_.string(), 0, "a new or empty folder, or one that cairn wrote",
-                        "a folder with other contents", "Choose another -o; nothing in it was touched."});
-    }
-  }
-  work_ = temporary_beside(target_);
-  fs::create_directories(work_, error);
-  if (error) fail_writing(target_, "create the folder", error.value());
-  write_file(work_ / kMarker, "written by cairn; a later run may replace this folder\n");
-}
-
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  if (!work_.empty()) fs::remove_all(work_, ignored);
-}
-
-void OutputFolder::commit() {
-  require(!work_.empty(), "an OutputFolder is committed once");
-  std::error_code error;
-  fs::path old;
-  if (fs::exists(target_, error)) {
-    old = temporary_beside(target_);
-    rename_or_fail(target_, old);
-  }
-  rename_or_fail(work_, target_);
-  work_.clear();
-  if (!old.empty()) fs::remove_all(old, error);
 }
 
 }  // namespace cairn

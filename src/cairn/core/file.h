@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cairn {
 
@@ -12,11 +13,11 @@ namespace cairn {
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 /// A file that appears under its name only when it is complete: written beside it and renamed by `commit`.
-/// Destroyed before that, it leaves nothing. InputError where the disk is full or the folder cannot be
-/// written.
+/// Destroyed before that, it leaves nothing. A link is followed. InputError where the disk is full, the
+/// folder cannot be written, or the name is that of a folder or a device.
 class AtomicFile {
  public:
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -40,13 +41,22 @@ void write_file(const std::filesystem::path& path, std::string_view contents);
 [[nodiscard]] std::filesystem::path temporary_beside(const std::filesystem::path& path);
 void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
+/// InputError for a write to `path` that failed while `doing` ("create the file"), from an errno.
+[[noreturn]] void fail_writing(const std::filesystem::path& path, std::string_view doing, int error_number);
+
 /// A result folder that appears as a whole: everything is written into `work()`, beside the target, and
 /// `commit` puts it in the target's place. Destroyed before that, the old folder (or none) is left as it was.
-/// Refuses (InputError) a target that is a file, or a non-empty folder that cairn did not write, which it
-/// knows by the marker file `.cairn` inside.
+///
+/// Refuses (InputError) a target that is a file, a non-empty folder that cairn did not write, and a folder of
+/// another kind: a run must not replace the sequence that it was made from. Both are known by the marker file
+/// `.cairn` inside.
+///
+/// A target that cannot be renamed (a mount point, the current folder, a folder in one that may not be
+/// written) is filled in place: only there, a run that is killed within `commit` leaves a mixture.
 class OutputFolder {
  public:
-  explicit OutputFolder(const std::filesystem::path& target);
+  /// `kind` is a noun for the marker and for messages: "sequence", "run", "map".
+  explicit OutputFolder(const std::filesystem::path& target, std::string_view kind = "result");
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -56,8 +66,13 @@ class OutputFolder {
   void commit();
 
  private:
+  void replace_target();
+  void fill_target();
+
   std::filesystem::path target_;
   std::filesystem::path work_;
+  std::vector<std::filesystem::path> made_parents_;  // innermost first
+  bool in_place_ = false;
 };
 
 }  // namespace cairn

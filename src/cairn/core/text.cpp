@@ -16,6 +16,7 @@ namespace cairn {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before UTF-8
 
 std::vector<std::string_view> split_fields(std::string_view text) {
   text = text.substr(0, text.find('#'));
@@ -45,7 +46,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& path) : path_(path), contents_(read_file(path)) {
-  const std::string_view all = contents_;
+  std::string_view all = contents_;
+  if (all.starts_with(kByteOrderMark)) all.remove_prefix(kByteOrderMark.size());
   int number = 0;
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t end = std::min(all.find('\n', begin), all.size());
@@ -83,7 +85,7 @@ std::int64_t TextFile::integer(const TextLine& line, std::size_t field, std::str
 }
 
 bool parse_number(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }

@@ -1,0 +1,158 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds, tests and shows cairn on Debian 12 and Ubuntu 24.04. `./do help` lists the commands.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+usage() {
+  cat <<'END'
+usage: ./do COMMAND [ARGUMENTS]
+
+  build              install what is missing, then build the program: build/release/cairn
+  test [CTEST ARGS]  build everything and run the tests, e.g. ./do test -R core
+  demo               build, then simulate a room, map it and compare with the truth
+  asan [CTEST ARGS]  the tests with the address and undefined-behaviour sanitizers
+  tsan [CTEST ARGS]  the tests with the thread sanitizer
+  tidy [FILES]       clang-tidy over our sources, or over these
+  format [FILES]     clang-format, in place; --check only says what is wrong
+  clean              remove build/ and demo/
+  help               this text
+
+Missing packages are installed with apt-get, as root or with sudo; nothing is downloaded where all are there.
+CAIRN_INSTALL=no leaves the packages alone. CAIRN_DATA_DIR names a folder of recordings for the tests that need
+real data (default: ../shared/data); those tests are skipped where it is absent.
+END
+}
+
+# Packages, each with its reason. The libraries are explained in cmake/dependencies.cmake.
+packages_build=(
+  g++ cmake ninja-build pkg-config      # compiler, build description, build tool, finds turbojpeg
+  libeigen3-dev                         # linear algebra
+  libtbb-dev                            # parallel loops
+  libfmt-dev                            # text formatting
+  libpng-dev libturbojpeg0-dev          # images
+  libopencv-core-dev libopencv-imgproc-dev libopencv-features2d-dev  # detectors by name
+  libyaml-cpp-dev nlohmann-json3-dev    # camera.yaml, run.json
+  libceres-dev                          # pose graph
+  liboctomap-dev                        # octrees
+  libcli11-dev                          # the command line
+  libgtest-dev python3                  # the build description knows the tests, too, which are C++ and Python
+)
+packages_test=(
+  universal-ctags  # tests/report_lengths.py measures functions with it
+  clang-format-14  # tests/check_format.py
+)
+packages_tidy=(clang-tidy-14 python3)
+packages_format=(clang-format-14 python3)
+
+say() { printf 'do: %s\n' "$*" >&2; }
+die() { say "$@"; exit 1; }
+
+missing_packages() {  # prints those of the arguments that are not installed
+  local installed
+  installed=$(dpkg-query -W -f='${db:Status-Status} ${Package}\n' "$@" 2>/dev/null || true)
+  for package in "$@"; do
+    grep -qxF "installed $package" <<<"$installed" || echo "$package"
+  done
+}
+
+apt() {
+  local root=()
+  if [ "$(id -u)" -ne 0 ]; then root=(sudo); fi
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@" </dev/null >&2
+}
+
+need() {  # installs what is missing of the packages named
+  [ "${CAIRN_INSTALL:-yes}" != no ] || return 0
+  command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
+    die "packages can be installed on Debian and Ubuntu only. Elsewhere install by hand what provides: $*
+    and run CAIRN_INSTALL=no ./do ..."
+  local missing
+  mapfile -t missing < <(missing_packages "$@")
+  [ ${#missing[@]} -gt 0 ] || return 0
+  [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null ||
+    die "these packages are missing, and this is neither root nor is there sudo. As root, run:
+    apt-get install --no-install-recommends ${missing[*]}"
+  say "installing ${missing[*]}"
+  apt update || say "apt-get update failed; going on with the package lists that are here"
+  apt install -y --no-install-recommends "${missing[@]}" ||
+    die "apt-get could not install: ${missing[*]}. cairn needs Debian 12, Ubuntu 24.04 or later."
+}
+
+configure() {  # preset: only where that was not done yet; ninja sees later changes of the build description itself
+  local data=${CAIRN_DATA_DIR:-}
+  if [ -e "build/$1/build.ninja" ]; then
+    [ -n "$data" ] || return 0
+    ! grep -qxF "CAIRN_DATA_DIR:PATH=$data" "build/$1/CMakeCache.txt" || return 0
+  fi
+  mkdir -p build
+  cmake --preset "$1" ${data:+"-DCAIRN_DATA_DIR=$data"} >"build/configure-$1.log" 2>&1 ||
+    { cat "build/configure-$1.log" >&2; die "cmake could not configure build/$1"; }
+}
+
+build() {
+  need "${packages_build[@]}"
+  configure release
+  ninja --quiet -C build/release cairn
+}
+
+build_and_test() {  # preset, ctest arguments
+  local preset=$1
+  shift
+  need "${packages_build[@]}" "${packages_test[@]}"
+  configure "$preset"
+  ninja --quiet -C "build/$preset"
+  ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
+}
+
+demo() {
+  build
+  local cairn=build/release/cairn
+  mkdir -p demo
+  "$cairn" simulate room -o demo/room
+  "$cairn" slam demo/room -o demo/run
+  "$cairn" evaluate demo/run demo/room
+  cat <<'END'
+
+The sequence is in demo/room, the result in demo/run:
+  trajectory.txt   world_from_camera of every frame, TUM format
+  cloud.ply        coloured cloud: open it in MeshLab, CloudCompare or Blender
+  octree.ot        occupancy for navigation: octovis demo/run/octree.ot
+  run.json         figures of the run
+END
+}
+
+tidy() {
+  need "${packages_build[@]}" "${packages_tidy[@]}"
+  configure tidy
+  python3 tests/run_tidy.py --build build/tidy "$@"
+}
+
+format() {
+  need "${packages_format[@]}"
+  if [ "${1:-}" = --check ]; then
+    python3 tests/check_format.py
+  elif [ $# -gt 0 ]; then
+    clang-format-14 -i "$@"
+  else
+    python3 tests/check_format.py --fix
+  fi
+}
+
+main() {
+  local command=${1:-help}
+  [ $# -eq 0 ] || shift
+  case $command in
+    build) build ;;
+    test) build_and_test release "$@" ;;
+    asan | tsan) build_and_test "$command" "$@" ;;
+    demo) demo ;;
+    tidy) tidy "$@" ;;
+    format) format "$@" ;;
+    clean) rm -rf build demo ;;
+    help | -h | --help) usage ;;
+    *) usage >&2; die "'$command' is no command" ;;
+  esac
+}
+
+main "$@"

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/core/text.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NumberCase {
+  std::string text;
+  bool good;
+  double value;
+};
+
+TEST(ParseNumber, takes_whole_finite_numbers_and_nothing_else) {
+  const NumberCase cases[] = {
+      {"1", true, 1},      {"-1.5", true, -1.5}, {"+2", true, 2},         {".5", true, 0.5},
+      {"5.", true, 5},     {"1e-3", true, 1e-3}, {"-2.5E+2", true, -250}, {"0", true, 0},
+      {"", false, 0},      {"+", false, 0},      {"+-1", false, 0},       {"--1", false, 0},
+      {"1,5", false, 0},   {"1.5x", false, 0},   {" 1", false, 0},        {"nan", false, 0},
+      {"inf", false, 0},   {"-inf", false, 0},   {"1e999", false, 0},     {"0x10", false, 0},
+      {"1.2.3", false, 0}, {"one", false, 0},    {"1e", false, 0},
+  };
+  for (const auto& [text, good, expected] : cases) {
+    double value = 0;
+    EXPECT_EQ(parse_number(text, value), good) << text;
+    if (good) {
+      EXPECT_EQ(value, expected) << text;
+    }
+  }
+}
+
+TEST(ParseInteger, takes_whole_integers_and_nothing_else) {
+  std::int64_t value = 0;
+  EXPECT_TRUE(parse_integer("-12", value));
+  EXPECT_EQ(value, -12);
+  for (const char* text : {"", "1.0", "1e3", "9223372036854775808", "x", " 1"})
+    EXPECT_FALSE(parse_integer(text, value)) << text;
+}
+
+struct StampCase {
+  std::string text;
+  bool good;
+  std::int64_t stamp_ns;
+};
+
+TEST(ParseStamp, is_exact_to_the_nanosecond) {
+  const StampCase cases[] = {
+      {"1305031453.359684", true, 1'305'031'453'359'684'000},
+      {"1305031453.123456789", true, 1'305'031'453'123'456'789},
+      {"0.1234567894", true, 123'456'789},
+      {"0.9999999996", true, 1'000'000'000},
+      {"7", true, 7'000'000'000},
+      {"7.", true, 7'000'000'000},
+      {".25", true, 250'000'000},
+      {"-0.5", true, -500'000'000},
+      {"1.5e2", true, 150'000'000'000},
+      {"1.403636579763555e9", true, 1'403'636'579'763'555'072},  // by way of a double
+      {"", false, 0},
+      {"1.2.3", false, 0},
+      {"12:30", false, 0},
+      {"99999999999", false, 0},
+      {"1e30", false, 0},
+      {"nan", false, 0},
+  };
+  for (const auto& [text, good, expected] : cases) {
+    std::int64_t stamp_ns = 0;
+    EXPECT_EQ(parse_stamp(text, stamp_ns), good) << text;
+    if (good) {
+      EXPECT_EQ(stamp_ns, expected) << text;
+    }
+  }
+}
+
+TEST(FormatStamp, is_the_inverse_of_parsing) {
+  EXPECT_EQ(format_stamp(1'305'031'453'359'684'000), "1305031453.359684000");
+  EXPECT_EQ(format_stamp(-1), "-0.000000001");
+  EXPECT_EQ(format_stamp(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
+  std::int64_t stamp_ns = 0;
+  ASSERT_TRUE(parse_stamp(format_stamp(1'403'636'579'763'555'584), stamp_ns));
+  EXPECT_EQ(stamp_ns, 1'403'636'579'763'555'584);
+}
+
+TEST(NearestName, finds_the_smallest_edit_distance) {
+  EXPECT_EQ(nearest_name("simulat", {"slam", "simulate", "info"}), "simulate");
+  EXPECT_EQ(nearest_name("salm", {"slam", "simulate", "info"}), "slam");
+  EXPECT_EQ(nearest_name("", {"abc", "a"}), "a");
+  EXPECT_THROW((void)nearest_name("a", {}), PreconditionError);
+}
+
+class TextFileTest : public testing::Test {
+ protected:
+  TextFile open(std::string_view contents) const {
+    write_file(path_, contents);
+    return TextFile(path_);
+  }
+  void TearDown() override { fs::remove(path_); }
+
+  /// What the exception of `action` says, without the path.
+  template <class Action>
+  std::string message(const Action& action) const {
+    try {
+      action();
+    } catch (const InputError& error) {
+      return std::string(error.what()).substr(path_.string().size());
+    }
+    return "no exception";
+  }
+
+ private:
+  const fs::path path_ =
+      fs::path(testing::TempDir()) /
+      (std::string("text_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(TextFileTest, splits_lines_into_fields) {
+  const TextFile file = open("# head\n1 2\t3\r\n\n   \n  4 # rest\nlast");
+  ASSERT_EQ(file.lines().size(), 3U);
+  EXPECT_EQ(file.lines()[0].number, 2);
+  EXPECT_EQ(file.lines()[0].fields, (std::vector<std::string_view>{"1", "2", "3"}));
+  EXPECT_EQ(file.lines()[1].number, 5);
+  EXPECT_EQ(file.lines()[1].fields, (std::vector<std::string_view>{"4"}));
+  EXPECT_EQ(file.lines()[2].fields, (std::vector<std::string_view>{"last"}));
+}
+
+TEST_F(TextFileTest, may_be_empty) {
+  EXPECT_TRUE(open("").lines().empty());
+  EXPECT_TRUE(open("\n\n").lines().empty());
+}
+
+TEST_F(TextFileTest, passes_over_a_byte_order_mark) {
+  EXPECT_EQ(open("\xEF\xBB\xBF"
+                 "1 2\n")
+                .lines()
+                .at(0)
+                .fields[0],
+            "1");
+}
+
+TEST_F(TextFileTest, reads_numbers) {
+  const TextFile file = open("1.5 -3\n");
+  EXPECT_EQ(file.number(file.lines()[0], 0, "x"), 1.5);
+  EXPECT_EQ(file.integer(file.lines()[0], 1, "n"), -3);
+}
+
+TEST_F(TextFileTest, names_the_line_of_what_is_no_number) {
+  const TextFile file = open("1\n2 x 1.5\n");
+  const TextLine& line = file.lines()[1];
+  EXPECT_EQ(message([&] { (void)file.number(line, 1, "tx"); }),
+            ":2: expected a number for tx, found 'x'.\n  Mend or delete the line.");
+  EXPECT_EQ(message([&] { (void)file.number(line, 3, "tx"); }),
+            ":2: expected a number for tx, found nothing.\n  Mend or delete the line.");
+  EXPECT_EQ(message([&] { (void)file.integer(line, 2, "id"); }),
+            ":2: expected a whole number for id, found '1.5'.\n  Mend or delete the line.");
+}
+
+TEST_F(TextFileTest, names_the_line_with_a_wrong_number_of_fields) {
+  const TextFile file = open("1 2 3\n");
+  EXPECT_NO_THROW(file.expect_fields(file.lines()[0], 3, "a b c"));
+  EXPECT_EQ(message([&] { file.expect_fields(file.lines()[0], 2, "a b"); }),
+            ":1: expected 2 values (a b), found 3.\n  Mend or delete the line.");
+}
+
+}  // namespace
+}  // namespace cairn

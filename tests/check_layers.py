@@ -1,0 +1,145 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Holds the order of the rooms: what may include what.
+
+1. A file of a room includes only rooms at or above its own in ROOMS, and only the libraries that ROOMS names for it.
+2. A public header (one in the HEADERS list of its room) includes no heavy library.
+3. src/cairn/CMakeLists.txt adds the rooms in the order of ROOMS.
+"""
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+from sources import ROOT, cpp_files
+
+# Bottom to top, each with the libraries that it may use beside EVERYWHERE.
+ROOMS = {
+    "core": {"tbb"},
+    "geometry": set(),
+    "image": {"opencv", "png", "turbojpeg"},
+    "sequence": {"yaml-cpp", "GeographicLib"},
+    "features": {"opencv"},
+    "map": set(),
+    "optimize": {"ceres"},
+    "slam": set(),
+    "survey": set(),
+    "localize": set(),
+    "dense": {"octomap"},
+    "evaluate": set(),
+    "report": {"nlohmann"},
+}
+EVERYWHERE = {"fmt"}
+EIGEN_FROM = "geometry"  # this room and those after it
+HEAVY = {"opencv", "ceres", "octomap", "yaml-cpp", "nlohmann", "CLI"}
+
+# What an include begins with, and the library that it comes from.
+LIBRARIES = {
+    "tbb/": "tbb", "oneapi/tbb": "tbb", "fmt/": "fmt", "Eigen/": "Eigen", "unsupported/Eigen/": "Eigen",
+    "opencv2/": "opencv", "png.h": "png", "turbojpeg.h": "turbojpeg", "yaml-cpp/": "yaml-cpp",
+    "ceres/": "ceres", "glog/": "ceres", "octomap/": "octomap", "nlohmann/": "nlohmann", "CLI/": "CLI",
+    "GeographicLib/": "GeographicLib", "gtest/": "gtest", "gmock/": "gtest",
+}
+POSIX = {"unistd.h", "fcntl.h", "dirent.h"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
+
+
+def library_of(header):
+    """The library of a <header>: '' for the language's and the system's own, None where it is not known."""
+    for beginning, library in LIBRARIES.items():
+        if header.startswith(beginning):
+            return library
+    if re.fullmatch(r"[a-z_0-9]+", header) or header in POSIX or header.startswith("sys/"):
+        return ""
+    return None
+
+
+def libraries_allowed(room, is_test):
+    names = list(ROOMS)
+    allowed = ROOMS[room] | EVERYWHERE
+    if names.index(room) >= names.index(EIGEN_FROM):
+        allowed = allowed | {"Eigen"}
+    return allowed | {"gtest"} if is_test else allowed
+
+
+def complaint_about_library(header, room, is_test, is_public):
+    library = library_of(header)
+    if library is None:
+        return f"<{header}> is of no library that tests/check_layers.py knows; add it to LIBRARIES and to one room"
+    if not library:
+        return None
+    if library not in libraries_allowed(room, is_test):
+        return f"room '{room}' may not use {library} (<{header}>)"
+    if is_public and library in HEAVY:
+        return f"a public header may not include {library} (<{header}>); include it in the .cpp"
+    return None
+
+
+def complaint_about_room(header, room):
+    parts = header.split("/")
+    if parts[0] != "cairn" or len(parts) != 3:
+        return f'"{header}": write the whole path, "cairn/<room>/<file>.h"'
+    names = list(ROOMS)
+    if parts[1] not in ROOMS:
+        return f'"{header}": there is no room \'{parts[1]}\''
+    if names.index(parts[1]) > names.index(room):
+        return f"room '{room}' may not include '{parts[1]}', which is further down (\"{header}\")"
+    return None
+
+
+def public_headers(room_folder):
+    """The names in the HEADERS list of the room's CMakeLists.txt."""
+    description = room_folder / "CMakeLists.txt"
+    text = re.sub(r"#.*", "", description.read_text()) if description.exists() else ""
+    match = re.search(r"\bHEADERS\s+(.*?)(?:\b[A-Z]{4,}\b|\))", text, re.S)
+    return set(match.group(1).split()) if match else set()
+
+
+def check_file(path, room, is_public):
+    complaints = []
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        library, own = match.groups()
+        is_test = path.name.endswith("_test.cpp")
+        complaint = (complaint_about_room(own, room) if own
+                     else complaint_about_library(library, room, is_test, is_public))
+        if complaint:
+            complaints.append(f"{path}:{number}: {complaint}")
+    return complaints
+
+
+def check_rooms(source):
+    complaints = []
+    for path in cpp_files(source.parent.parent, folders=("src/cairn",)):
+        room = path.relative_to(source).parts[0]
+        if room not in ROOMS:
+            complaints.append(f"{path}: '{room}' is no room of tests/check_layers.py")
+            continue
+        complaints += check_file(path, room, path.name in public_headers(source / room))
+    return complaints
+
+
+def check_order(description):
+    text = re.sub(r"#.*", "", description.read_text()) if description.exists() else ""
+    added = re.findall(r"add_subdirectory\((\w+)\)", text)
+    ordered = [room for room in ROOMS if room in added]
+    if added == ordered:
+        return []
+    return [f"{description}: expected the rooms {ordered}, found {added}"]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--root", type=Path, default=ROOT)
+    source = parser.parse_args().root / "src" / "cairn"
+    complaints = check_order(source / "CMakeLists.txt") + check_rooms(source)
+    print(*complaints, sep="\n", end="\n" if complaints else "")
+    print(f"layers: {len(complaints)} complaints")
+    return 1 if complaints else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

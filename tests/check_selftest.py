@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Shows that each check of this folder finds what it is there to find: a good sample passes, a bad one fails."""
+
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from sources import ROOT
+
+TESTS = Path(__file__).resolve().parent
+
+
+class Sample(unittest.TestCase):
+    """A project of a few lines in a temporary folder."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def run_command(self, *command):
+        done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def check(self, script):
+        return self.run_command(sys.executable, TESTS / script, "--root", self.root)
+
+    def need(self, tool):
+        if not shutil.which(tool):
+            self.skipTest(f"{tool} is not installed")
+
+
+class Layers(Sample):
+    def setUp(self):
+        super().setUp()
+        self.write("src/cairn/CMakeLists.txt", "add_subdirectory(core)\nadd_subdirectory(map)\nadd_subdirectory(optimize)\n")
+        self.write("src/cairn/optimize/CMakeLists.txt", "cairn_room(optimize\n  HEADERS window.h\n  SOURCES window.cpp)\n")
+
+    def expect(self, name, text, message):
+        self.write(name, text)
+        code, output = self.check("check_layers.py")
+        self.assertEqual(code, 1 if message else 0, output)
+        self.assertIn(message or "0 complaints", output)
+
+    def test_accepts_rooms_above_and_named_libraries(self):
+        self.expect("src/cairn/optimize/window.cpp",
+                    '#include <ceres/ceres.h>\n#include <fmt/format.h>\n#include <unistd.h>\n#include <vector>\n'
+                    '#include "cairn/optimize/window.h"\n#include "cairn/map/map.h"\n', None)
+
+    def test_refuses_a_room_further_down(self):
+        self.expect("src/cairn/map/map.h", '#include "cairn/optimize/window.h"\n',
+                    "map.h:1: room 'map' may not include 'optimize'")
+
+    def test_refuses_an_unknown_room(self):
+        self.expect("src/cairn/map/map.h", '#include "cairn/maps/map.h"\n', "there is no room 'maps'")
+
+    def test_refuses_a_room_that_is_not_in_the_table(self):
+        self.expect("src/cairn/attic/a.h", "\n", "'attic' is no room")
+
+    def test_refuses_a_relative_include(self):
+        self.expect("src/cairn/map/map.cpp", '#include "map.h"\n', "write the whole path")
+
+    def test_refuses_a_library_that_the_room_has_not(self):
+        self.expect("src/cairn/map/map.cpp", "#include <ceres/ceres.h>\n", "room 'map' may not use ceres")
+
+    def test_refuses_a_library_that_nobody_has(self):
+        self.expect("src/cairn/map/map.cpp", "#include <pcl/point_cloud.h>\n", "of no library that")
+
+    def test_refuses_a_heavy_library_in_a_public_header(self):
+        self.expect("src/cairn/optimize/window.h", "#include <ceres/ceres.h>\n", "a public header may not include ceres")
+
+    def test_refuses_rooms_out_of_order(self):
+        self.expect("src/cairn/CMakeLists.txt", "add_subdirectory(map)\nadd_subdirectory(core)\n", "expected the rooms")
+
+
+class Lengths(Sample):
+    def setUp(self):
+        super().setUp()
+        self.need("ctags")
+
+    def test_accepts_short_ones(self):
+        self.write("src/a.cpp", "int one() {\n  return 1;\n}\n")
+        self.assertEqual(self.check("report_lengths.py")[0], 0)
+
+    def test_refuses_a_long_function(self):
+        self.write("src/a.cpp", "int one() {\n" + "  // a line\n" * 60 + "  return 1;\n}\n")
+        code, output = self.check("report_lengths.py")
+        self.assertEqual(code, 1)
+        self.assertIn("src/a.cpp:1 one: 63 lines, at most 60", output)
+
+    def test_refuses_a_long_file(self):
+        self.write("src/a.h", "// a line\n" * 401)
+        code, output = self.check("report_lengths.py")
+        self.assertEqual(code, 1)
+        self.assertIn("src/a.h: 401 lines, at most 400", output)
+
+
+class Format(Sample):
+    def setUp(self):
+        super().setUp()
+        self.need("clang-format-14")
+        shutil.copy(ROOT / ".clang-format", self.root)
+
+    def test_tells_formatted_from_unformatted(self):
+        self.write("src/a.cpp", "int one() {\n  return 1;\n}\n")
+        self.assertEqual(self.check("check_format.py")[0], 0)
+        self.write("src/a.cpp", "int  one()\n{ return 1; }\n")
+        self.assertEqual(self.check("check_format.py")[0], 1)
+
+
+class Headers(Sample):
+    def verify(self, header):
+        self.write("src/room/a.h", header)
+        self.write("src/room/a.cpp", '#include <string>\n#include "room/a.h"\n')
+        self.write("src/room/CMakeLists.txt", "cairn_room(room HEADERS a.h SOURCES a.cpp)\n")
+        self.write("CMakeLists.txt",
+                   "cmake_minimum_required(VERSION 3.25)\nproject(sample LANGUAGES CXX)\n"
+                   f"add_library(cairn_compile_options INTERFACE)\ninclude({ROOT}/cmake/rooms.cmake)\n"
+                   "add_subdirectory(src/room)\n")
+        build = self.root / "build"
+        code, output = self.run_command("cmake", "-G", "Ninja", "-S", self.root, "-B", build)
+        self.assertEqual(code, 0, output)
+        return self.run_command("cmake", "--build", build, "--target", "all_verify_interface_header_sets")
+
+    def test_refuses_a_header_that_needs_another_before_it(self):
+        code, output = self.verify("#pragma once\nstd::string name();\n")
+        self.assertNotEqual(code, 0, output)
+        self.assertIn("a.h", output)
+
+    def test_accepts_a_header_that_stands_alone(self):
+        code, output = self.verify("#pragma once\n#include <string>\nstd::string name();\n")
+        self.assertEqual(code, 0, output)
+
+
+class Tidy(Sample):
+    BAD = {
+        "struct lower_type {};": "invalid case style for struct",
+        "void PascalFunction() {}": "invalid case style for function",
+        "int CamelVariable = 0;": "invalid case style for variable",
+        "constexpr int limit = 3;": "invalid case style for constexpr variable",
+        "class A { int member; };": "invalid case style for private member",
+        "enum class E { kOne };": "invalid case style for enum constant",
+        "void f() { int a = 1; if ((a = 2)) {} sizeof(sizeof(a)); }": "bugprone-sizeof-expression",
+    }
+    GOOD = ("enum class Kind { one, two };\nconstexpr int kLimit = 3;\n"
+            "class Box {\n public:\n  [[nodiscard]] int width() const { return width_; }\n\n"
+            " private:\n  int width_ = kLimit;\n};\n")
+
+    def setUp(self):
+        super().setUp()
+        self.need("clang-tidy-14")
+        shutil.copy(ROOT / ".clang-tidy", self.root)
+
+    def tidy(self, text):
+        self.write("src/a.cpp", text + "\n")
+        return self.run_command("clang-tidy-14", "--quiet", self.root / "src" / "a.cpp", "--", "-std=c++20")
+
+    def test_accepts_the_house_style(self):
+        code, output = self.tidy(self.GOOD)
+        self.assertEqual(code, 0, output)
+
+    def test_refuses_each_bad_line(self):
+        for line, message in self.BAD.items():
+            with self.subTest(line):
+                code, output = self.tidy(line)
+                self.assertNotEqual(code, 0)
+                self.assertIn(message, output)
+
+
+if __name__ == "__main__":
+    unittest.main()
