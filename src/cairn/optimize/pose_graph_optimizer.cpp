@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -263,7 +264,7 @@ PoseGraphReport optimize_pose_graph(PoseGraph& graph, const PoseGraphOptions& op
   if (progress != nullptr) progress->finish();
   set_poses(problem.poses(), graph);
   report.chi2_after = chi2(graph);
-  report.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
+  report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // without the start
   report.converged = summary.termination_type == ceres::CONVERGENCE;
   report.termination = summary.message;
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();

@@ -189,7 +189,9 @@ TEST(PoseGraphOptimizer, SaysThatItDidNotConverge) {
   Scene scene = two_rounds(10);
   PoseGraphOptions options;
   options.max_iterations = 1;
-  EXPECT_FALSE(optimize_pose_graph(scene.graph, options).converged);
+  const PoseGraphReport report = optimize_pose_graph(scene.graph, options);
+  EXPECT_FALSE(report.converged);
+  EXPECT_EQ(report.iterations, 1);
   StopAtOnce progress;
   Scene stopped = two_rounds(10);
   EXPECT_FALSE(optimize_pose_graph(stopped.graph, {}, &progress).converged);
