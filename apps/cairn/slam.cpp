@@ -26,6 +26,8 @@ int run_slam(int argc, char** argv) {
   app.add_option("--rand", options.random_loops);
   app.add_option("--sd", options.depth_noise.sigma_disparity_px);
   app.add_option("--maxd", options.depth_noise.max_depth);
+  app.add_option("--jr", options.depth_noise.jump_radius);
+  app.add_option("--js", options.depth_noise.jump_sigmas);
   app.add_flag("--odometry", options.odometry);
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.config = true, .threads = true, .seed = true});

@@ -24,59 +24,47 @@ DepthImage depth_in_metres(const RawDepthImage& raw, double scale,
 
 DepthRegistration::DepthRegistration(const Camera& depth_camera, const Camera& color_camera,
                                      const Rigid3& camera_from_depth)
-    : depth_camera_(depth_camera), color_camera_(color_camera), translation_(camera_from_depth.translation) {
-  const auto corners_per_row = static_cast<std::size_t>(depth_camera.width) + 1;
-  rotated_rays_.reserve(corners_per_row * (static_cast<std::size_t>(depth_camera.height) + 1));
+    : depth_camera_(depth_camera),
+      color_camera_(color_camera),
+      translation_(camera_from_depth.translation),
+      magnification_(color_camera.fx / depth_camera.fx, color_camera.fy / depth_camera.fy) {
   const Eigen::Matrix3d rotation = camera_from_depth.matrix3();
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  for (int v = 0; v <= depth_camera.height; ++v) {
-    for (int u = 0; u <= depth_camera.width; ++u) {
-      const Eigen::Vector2d ray = depth_camera.unproject({u - 0.5, v - 0.5}).value_or(none);
+  for (int v = 0; v < depth_camera.height; ++v) {
+    for (int u = 0; u < depth_camera.width; ++u) {
+      const Eigen::Vector2d ray =
+          depth_camera.unproject({static_cast<double>(u), static_cast<double>(v)}).value_or(none);
       rotated_rays_.push_back(rotation * ray.homogeneous());
     }
   }
 }
 
-std::optional<Eigen::Vector2d> DepthRegistration::color_pixel(const Eigen::Vector3d& rotated_ray,
-                                                              double depth) const {
-  return color_camera_.project(rotated_ray * depth + translation_);
-}
-
-/// The colour pixels whose centres the depth pixel covers, cut to the image; neighbours of equal depth tile.
-std::optional<DepthRegistration::Footprint> DepthRegistration::footprint(std::size_t upper_left,
-                                                                         double depth) const {
-  const std::size_t lower_right = upper_left + static_cast<std::size_t>(depth_camera_.width) + 2;
-  const auto a = color_pixel(rotated_rays_[upper_left], depth);
-  const auto b = color_pixel(rotated_rays_[lower_right], depth);
-  const auto inside = [](double value, int end) {
-    return static_cast<int>(std::ceil(std::clamp(value, 0.0, double(end))));
-  };
-  if (!a || !b || !a->allFinite() || !b->allFinite()) return std::nullopt;
-  const int width = color_camera_.width, height = color_camera_.height;
-  return Footprint{inside(std::min(a->x(), b->x()), width), inside(std::max(a->x(), b->x()), width),
-                   inside(std::min(a->y(), b->y()), height), inside(std::max(a->y(), b->y()), height)};
+/// One depth pixel into the colour pixels whose centres it covers; neighbours of equal depth tile.
+void DepthRegistration::splat(DepthImage& registered, const Eigen::Vector3d& rotated_ray,
+                              double depth) const {
+  const Eigen::Vector3d point = rotated_ray * depth + translation_;
+  const auto centre = color_camera_.project(point);
+  if (!centre || !(std::abs(centre->x()) < 1e6) || !(std::abs(centre->y()) < 1e6)) return;
+  const Eigen::Vector2d half = magnification_ * (0.5 * depth / point.z());
+  const int u_begin = std::max(0, static_cast<int>(std::ceil(centre->x() - half.x())));
+  const int u_end = std::min(registered.width(), static_cast<int>(std::ceil(centre->x() + half.x())));
+  const int v_begin = std::max(0, static_cast<int>(std::ceil(centre->y() - half.y())));
+  const int v_end = std::min(registered.height(), static_cast<int>(std::ceil(centre->y() + half.y())));
+  const auto z = static_cast<float>(point.z());
+  for (int v = v_begin; v < v_end; ++v) {
+    for (int u = u_begin; u < u_end; ++u) {
+      float& nearest = registered(u, v);
+      if (nearest == 0.0F || z < nearest) nearest = z;
+    }
+  }
 }
 
 DepthImage DepthRegistration::operator()(const DepthImage& depth) const {
   require(depth.width() == depth_camera_.width && depth.height() == depth_camera_.height,
           "a depth image has the depth camera's size");
   DepthImage registered(color_camera_.width, color_camera_.height);
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      const double z = static_cast<double>(depth(u, v));
-      if (!(z > 0)) continue;
-      const std::size_t corner = static_cast<std::size_t>(v) * (static_cast<std::size_t>(depth.width()) + 1) +
-                                 static_cast<std::size_t>(u);
-      const auto pixels = footprint(corner, z);
-      if (!pixels) continue;
-      const auto z_in_color = static_cast<float>(rotated_rays_[corner].z() * z + translation_.z());
-      for (int y = pixels->v_begin; y < pixels->v_end; ++y) {
-        for (int x = pixels->u_begin; x < pixels->u_end; ++x) {
-          float& nearest = registered(x, y);
-          if (nearest == 0.0F || z_in_color < nearest) nearest = z_in_color;
-        }
-      }
-    }
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (depth.data()[i] > 0) splat(registered, rotated_rays_[i], static_cast<double>(depth.data()[i]));
   }
   return registered;
 }

@@ -30,7 +30,7 @@ LoopReport close_loops(const KeyframeMap& map, const RgbdSlamOptions& options, c
   LoopReport report;
   report.tried = static_cast<int>(candidates.size());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const KeyframeDecision decision = decide(motions[i], options.keyframe_threshold, options.max_norm_lp);
+    const KeyframeDecision decision = decide_loop(motions[i], options);
     if (decision == KeyframeDecision::not_matched || decision == KeyframeDecision::too_far) continue;
     edges.push_back(make_edge(candidates[i], current.id, motions[i], true));
     const bool nearby = current.id.value - candidates[i].value <= options.nearby_loops;

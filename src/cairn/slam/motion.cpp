@@ -35,6 +35,13 @@ std::uint64_t seed_of(const RgbdSlamOptions& options, const ObservedFrame& refer
   return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
 }
 
+KeyframeDecision decide_by_norm(const Motion& motion, double keyframe_threshold, double max_norm) {
+  if (!motion.found) return KeyframeDecision::not_matched;
+  if (motion.norm >= max_norm) return KeyframeDecision::too_far;
+  if (motion.norm <= keyframe_threshold) return KeyframeDecision::too_close;
+  return KeyframeDecision::keyframe;
+}
+
 }  // namespace
 
 Motion estimate_motion(const Rig& rig, const ObservedFrame& reference, const ObservedFrame& current,
@@ -73,11 +80,15 @@ const char* to_string(KeyframeDecision decision) {
   return "not matched";
 }
 
-KeyframeDecision decide(const Motion& motion, double keyframe_threshold, double max_norm) {
-  if (!motion.found) return KeyframeDecision::not_matched;
-  if (motion.norm >= max_norm) return KeyframeDecision::too_far;
-  if (motion.norm <= keyframe_threshold) return KeyframeDecision::too_close;
-  return KeyframeDecision::keyframe;
+KeyframeDecision decide(const Motion& motion, const RgbdSlamOptions& options) {
+  return decide_by_norm(motion, options.keyframe_threshold, options.max_norm);
+}
+
+KeyframeDecision decide_loop(const Motion& motion, const RgbdSlamOptions& options) {
+  const bool enough = motion.inliers >= options.loop_min_inliers &&
+                      motion.inliers >= options.loop_min_inlier_share * motion.matches;
+  if (!enough) return KeyframeDecision::not_matched;
+  return decide_by_norm(motion, options.keyframe_threshold, options.max_norm_lp);
 }
 
 }  // namespace cairn

@@ -33,7 +33,11 @@ enum class KeyframeDecision {
 
 [[nodiscard]] const char* to_string(KeyframeDecision decision);
 
-/// The four outcomes by motion.norm; `max_norm` is that of tracking or that of loop closure.
-[[nodiscard]] KeyframeDecision decide(const Motion& motion, double keyframe_threshold, double max_norm);
+/// The four outcomes between neighbours, by motion.norm.
+[[nodiscard]] KeyframeDecision decide(const Motion& motion, const RgbdSlamOptions& options);
+/// The same for views that need not be neighbours: a loop closure, a frame after being lost. max_norm_lp
+/// bounds the motion, and loop_min_inliers and loop_min_inlier_share must be reached or it counts as not
+/// matched.
+[[nodiscard]] KeyframeDecision decide_loop(const Motion& motion, const RgbdSlamOptions& options);
 
 }  // namespace cairn

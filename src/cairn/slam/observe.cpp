@@ -8,12 +8,24 @@
 namespace cairn {
 namespace {
 
-/// Metres at the nearest pixel, 0 where unknown or out of range.
-double depth_at(const DepthImage& depth, const Keypoint& keypoint, const DepthNoise& noise) {
+/// Metres at the nearest pixel; 0 where unknown, out of range, or at a jump of depth: a corner on an outline
+/// belongs to one side, its depth may come from the other, and the inliers among these shorten the motion by
+/// 1 to 2 %.
+double depth_at(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise) {
   const int u = static_cast<int>(std::lround(keypoint.u)), v = static_cast<int>(std::lround(keypoint.v));
   if (!depth.contains(u, v)) return 0;
   const auto z = static_cast<double>(depth(u, v));
-  return z >= noise.min_depth && z <= noise.max_depth ? z : 0;
+  if (!(z >= noise.min_depth && z <= noise.max_depth)) return 0;
+  const int radius =
+      static_cast<int>(std::lround(noise.jump_radius * static_cast<double>(keypoint.sigma_px)));
+  const double jump = noise.jump_sigmas * noise.sigma_disparity_px;
+  for (int y = std::max(0, v - radius); y <= std::min(depth.height() - 1, v + radius); ++y) {
+    for (int x = std::max(0, u - radius); x <= std::min(depth.width() - 1, u + radius); ++x) {
+      const auto other = static_cast<double>(depth(x, y));
+      if (other > 0 && std::abs(rig.disparity(other) - rig.disparity(z)) > jump) return 0;
+    }
+  }
+  return z;
 }
 
 Observation make_observation(const Rig& rig, const Eigen::Vector2d& ray, const Keypoint& keypoint,
@@ -49,7 +61,7 @@ ObservedFrame observe(const Frame& frame, const Camera& camera, const Extractor&
     const Keypoint& keypoint = all.keypoints[i];
     const auto ray = camera.unproject({static_cast<double>(keypoint.u), static_cast<double>(keypoint.v)});
     if (!ray) continue;
-    const double depth = depth_at(frame.depth, keypoint, noise);
+    const double depth = depth_at(frame.depth, keypoint, rig, noise);
     const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     kept.push_back(i);
     observed.features.keypoints.push_back(keypoint);

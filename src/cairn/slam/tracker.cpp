@@ -41,9 +41,9 @@ const Keyframe& Tracker::keyframe(KeyframeId id) const {
   return map_.keyframes[static_cast<std::size_t>(id.value)];
 }
 
-Tracker::Found Tracker::match(KeyframeId reference, const ObservedFrame& frame, double max_norm) const {
+Tracker::Found Tracker::match(KeyframeId reference, const ObservedFrame& frame) const {
   Found found{reference, estimate_motion(map_.rig, keyframe(reference).observed, frame, options_), {}};
-  found.decision = decide(found.motion, options_.keyframe_threshold, max_norm);
+  found.decision = decide(found.motion, options_);
   return found;
 }
 
@@ -52,10 +52,10 @@ Tracker::Found Tracker::match(KeyframeId reference, const ObservedFrame& frame, 
 Tracker::Found Tracker::find_motion(const ObservedFrame& frame) {
   Found found;
   if (!lost_) {
-    found = match(reference_, frame, options_.max_norm);
+    found = match(reference_, frame);
     if (!found.ok() && previous_) {
       reference_ = add_keyframe(std::move(previous_->observed), previous_->found);
-      found = match(reference_, frame, options_.max_norm);
+      found = match(reference_, frame);
     }
   }
   previous_.reset();
@@ -70,8 +70,11 @@ Tracker::Found Tracker::relocalize(const ObservedFrame& frame) const {
       0x100000000ULL + static_cast<std::uint64_t>(frame.frame.value);  // apart from the loop closer's streams
   const auto candidates = candidate_keyframes(end, options_.relocalization_keyframes, options_.random_loops,
                                               options_.seed, stream);
-  const auto found = executor_.map<Found>(
-      candidates.size(), [&](std::size_t i) { return match(candidates[i], frame, options_.max_norm_lp); });
+  const auto found = executor_.map<Found>(candidates.size(), [&](std::size_t i) {
+    Found one = match(candidates[i], frame);
+    one.decision = decide_loop(one.motion, options_);
+    return one;
+  });
   const auto best = std::max_element(found.begin(), found.end(), [](const Found& a, const Found& b) {
     return (a.ok() ? a.motion.inliers : -1) < (b.ok() ? b.motion.inliers : -1);
   });

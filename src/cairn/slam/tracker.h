@@ -51,7 +51,7 @@ class Tracker {
   };
 
   [[nodiscard]] const Keyframe& keyframe(KeyframeId id) const;
-  [[nodiscard]] Found match(KeyframeId reference, const ObservedFrame& frame, double max_norm) const;
+  [[nodiscard]] Found match(KeyframeId reference, const ObservedFrame& frame) const;
   [[nodiscard]] Found find_motion(const ObservedFrame& frame);
   [[nodiscard]] Found relocalize(const ObservedFrame& frame) const;
   KeyframeId add_keyframe(ObservedFrame&& frame, const std::optional<Found>& found);
