@@ -118,9 +118,11 @@ Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
   const Eigen::Matrix3d r = m.leftCols<3>();
   constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout does not
   const double deviation = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(deviation <= kMaxDeviation) || r.determinant() <= 0) {
+  const bool mirrors = r.determinant() <= 0;
+  if (!(deviation <= kMaxDeviation) || mirrors) {
     file.fail(line, "a rotation in columns 1-3, 5-7, 9-11",
-              fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
+              mirrors ? "a matrix that mirrors"
+                      : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
               "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
   }
   return {nearest_rotation(r), m.col(3)};
