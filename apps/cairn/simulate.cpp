@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cairn/core/file.h"
+#include "cairn/sequence/write_kitti.h"
 #include "cairn/sequence/write_tum.h"
 #include "commands.h"
 #include "common.h"
@@ -15,46 +15,54 @@ namespace {
 struct Arguments {
   CommonOptions common;
   std::string output;
+  std::string noise;
   double scale = 1;  ///< of the image size
+  bool depth_truth = false;
 };
 
-/// What every simulated sequence has.
-void add_shared_options(CLI::App& app, Arguments& arguments) {
+/// What every simulated sequence has, with `Options` for its own defaults.
+template <class Options>
+void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
   app.add_option("-o,--output", arguments.output, "folder to write; a folder that cairn wrote is replaced")
       ->required()
       ->type_name("DIR");
+  app.add_option("--frames-count", options.frames_count,
+                 fmt::format("frames, at {} a second", options.rate_hz))
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("--speed", options.speed, "metres a second")->capture_default_str()->type_name("V");
+  app.add_option("--loops", options.loops, "times around; 0: as many as the way needs")
+      ->capture_default_str()
+      ->type_name("N");
   app.add_option("--scale", arguments.scale, "image width and height over the default's")
-      ->check(CLI::Range(0.05, 4.0))
+      ->check(CLI::Range(0.05, 4.0).description(""))
       ->capture_default_str()
       ->type_name("X");
   add_common_options(app, arguments.common, {.threads = true, .seed = true});
 }
 
-void add_room_options(CLI::App& app, SimulateRoomOptions& options) {
-  app.add_option("--frames-count", options.frames_count, "frames, at 30 a second")
-      ->capture_default_str()
-      ->type_name("N");
-  app.add_option("--loops", options.loops, "times around the room; 0: as many as the way needs")
-      ->capture_default_str()
-      ->type_name("N");
-  app.add_option("--speed", options.speed, "metres a second")->capture_default_str()->type_name("V");
-  const std::map<std::string, RgbdNoise> names{{"kinect", RgbdNoise::kinect}, {"none", RgbdNoise::none}};
-  app.add_option("--noise", options.noise, "kinect: noise and holes of a Kinect v1 (default); none: exact")
-      ->transform(CLI::CheckedTransformer(names).description(""))
-      ->type_name("kinect|none");
+void add_noise_option(CLI::App& app, const std::string& sensor, const std::string& description,
+                      Arguments& arguments) {
+  app.add_option("--noise", arguments.noise,
+                 fmt::format("{}; none: exact (default: {})", description, sensor))
+      ->check(CLI::IsMember({sensor, std::string("none")}).description(""))
+      ->type_name(sensor + "|none");
 }
 
-void print_report(const Arguments& arguments, const std::string& kind, const std::string& folder,
-                  const SimulationReport& report, const std::string& next) {
+nlohmann::ordered_json to_json(const SimulationReport& report, const Arguments& arguments) {
+  nlohmann::ordered_json json;
+  json["frames"] = report.frames;
+  json["duration_s"] = report.duration;
+  json["path_m"] = report.length;
+  json["seed"] = arguments.common.seed;
+  json["stopped"] = report.stopped;
+  return json;
+}
+
+void print_report(const Arguments& arguments, const std::string& folder, const SimulationReport& report) {
   if (arguments.common.json) {
-    nlohmann::ordered_json json;
-    json["kind"] = kind;
+    auto json = to_json(report, arguments);
     json["folder"] = folder;
-    json["frames"] = report.frames;
-    json["duration_s"] = report.duration;
-    json["path_m"] = report.length;
-    json["seed"] = arguments.common.seed;
-    json["stopped"] = report.stopped;
     fmt::print("{}\n", json.dump(2));
     return;
   }
@@ -62,22 +70,35 @@ void print_report(const Arguments& arguments, const std::string& kind, const std
              report.stopped ? ", stopped before the end" : "");
   fmt::print("path         {:.3f} m\n", report.length);
   fmt::print("written to   {}\n", folder);
-  fmt::print("next         {}\n", next);
+  fmt::print("next         cairn slam {} -o run\n", folder);
 }
 
-int simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
+void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
+  if (arguments.noise == "none") options.noise = RgbdNoise::none;
   options.validate();
   OutputFolder output(arguments.output);
   const auto progress = make_progress(arguments.common);
   const Executor executor(arguments.common.thread_count());
-  const SimulatedRoom room(options, executor);
-  const SimulationReport report = write_tum(room, output.work(), executor, *progress);
+  const SimulationReport report =
+      write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress);
   output.commit();
-  const std::string folder = output.target().string();
-  print_report(arguments, "room", folder, report, fmt::format("cairn slam {} -o run", folder));
-  return 0;
+  print_report(arguments, output.target().string(), report);
+}
+
+void simulate_street(const Arguments& arguments, SimulateStreetOptions options) {
+  options.seed = arguments.common.seed;
+  options.camera = resized(options.camera, arguments.scale);
+  if (arguments.noise == "none") options.noise = StereoNoise::none;
+  options.validate();
+  OutputFolder output(arguments.output);
+  const auto progress = make_progress(arguments.common);
+  const Executor executor(arguments.common.thread_count());
+  const SimulationReport report = write_kitti(SimulatedStreet(options, executor), output.work(),
+                                              arguments.depth_truth, executor, *progress);
+  output.commit();
+  print_report(arguments, output.target().string(), report);
 }
 
 }  // namespace
@@ -85,14 +106,27 @@ int simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
 int run_simulate(int argc, char** argv) {
   CLI::App app("A simulated recording with exact truth.\n\nexample: cairn simulate room -o demo/room",
                "simulate");
+  app.require_subcommand(1);
   Arguments arguments;
   SimulateRoomOptions room_options;
-  app.require_subcommand(1);
+  SimulateStreetOptions street_options;
+
   CLI::App& room = *app.add_subcommand("room", "furnished room seen by a hand-held RGB-D camera, TUM layout");
-  add_room_options(room, room_options);
-  add_shared_options(room, arguments);
+  add_shared_options(room, room_options, arguments);
+  add_noise_option(room, "kinect", "kinect: noise and holes of a Kinect v1", arguments);
+
+  CLI::App& street = *app.add_subcommand("street", "drive around a block with a stereo camera, KITTI layout");
+  add_shared_options(street, street_options, arguments);
+  add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
+  street.add_option("--baseline", street_options.baseline, "metres between the two cameras")
+      ->capture_default_str()
+      ->type_name("B");
+  street.add_flag("--depth-truth", arguments.depth_truth,
+                  "also the left camera's true depth, 16 bit, 1/256 m");
+
   if (const auto code = parse(app, argc, argv)) return *code;
-  return simulate_room(arguments, room_options);
+  room.parsed() ? simulate_room(arguments, room_options) : simulate_street(arguments, street_options);
+  return 0;
 }
 
 }  // namespace cairn::app

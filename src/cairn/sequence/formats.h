@@ -15,6 +15,10 @@ void list_tum(const std::filesystem::path& folder, const SequenceOptions& option
 [[nodiscard]] bool is_seven_scenes(const std::filesystem::path& folder);
 void list_seven_scenes(const std::filesystem::path& folder, Sequence& sequence);
 
+/// Grey stereo pairs of the KITTI odometry benchmark; carries its own calibration.
+[[nodiscard]] bool is_kitti(const std::filesystem::path& folder);
+void list_kitti(const std::filesystem::path& folder, Sequence& sequence);
+
 /// Files named by their number in two folders, named by the options or by habit (rgb_index and dep_index, rgb
 /// and depth, ...); poses in trajectory.txt, by number.
 [[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);

@@ -34,7 +34,8 @@ void choose_calibration(const fs::path& folder, const SequenceOptions& options, 
 
 [[noreturn]] void fail_unknown_format(const fs::path& folder) {
   throw InputError({folder.string(), 0,
-                    "a sequence: TUM (rgb.txt, depth.txt), 7-Scenes (frame-000000.color.*) or numbered files",
+                    "a sequence: TUM (rgb.txt, depth.txt), 7-Scenes (frame-000000.color.*), KITTI (image_0, "
+                    "image_1, calib.txt, times.txt) or numbered files",
                     fs::is_empty(folder) ? "an empty folder" : "none of these",
                     "Name the folder that holds these files, or rgb_dir and depth_dir in a parameter file."});
 }
@@ -43,6 +44,7 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   if (!options.rgb_dir.empty()) return list_numbered(folder, options, sequence);
   if (is_tum(folder)) return list_tum(folder, options, sequence);
   if (is_seven_scenes(folder)) return list_seven_scenes(folder, sequence);
+  if (is_kitti(folder)) return list_kitti(folder, sequence);
   if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
   fail_unknown_format(folder);
 }
