@@ -5,6 +5,8 @@
 
 #include "cairn/core/file.h"
 #include "cairn/dense/cloud_file.h"
+#include "cairn/dense/overview.h"
+#include "cairn/image/codec.h"
 #include "commands.h"
 #include "fusion.h"
 
@@ -25,11 +27,15 @@ void declare(CLI::App& app, CloudArguments& arguments) {
                  "world_from_camera in TUM format (default: the sequence's own truth)")
       ->type_name("FILE");
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
+      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--max-depth", arguments.options.max_depth, "metres; deeper readings are too noisy")
+      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
+  app.add_option("--draw", arguments.picture, "a picture of the cloud, obliquely from above")
+      ->type_name("PNG");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.threads = true});
   app.footer("Example: cairn cloud demo/room --poses run/trajectory.txt -o room.ply");
@@ -66,6 +72,14 @@ void print_json(const CloudArguments& arguments, const Result& result) {
   fmt::print("{}\n", json.dump(2));
 }
 
+/// The path without the gaps where frames have no pose.
+CameraPath path_of(const PosedSequence& posed) {
+  CameraPath path;
+  for (const auto& pose : posed.world_from_camera)
+    if (pose) path.world_from_camera.push_back(*pose);
+  return path;
+}
+
 Result build_cloud(const CloudArguments& arguments) {
   const Stopwatch watch;
   const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
@@ -77,6 +91,8 @@ Result build_cloud(const CloudArguments& arguments) {
       fuse_sequence(posed.sequence, posed.world_from_camera, {.cloud = &builder}, executor, *progress);
   const Cloud cloud = builder.take();
   write_cloud(arguments.output, cloud);
+  if (!arguments.picture.empty())
+    write_png(arguments.picture, draw_overview(cloud, path_of(posed), arguments.options.voxel_size));
   result.points = cloud.points.size();
   result.bounds = bounds_of(cloud);
   result.bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.output));
