@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <sstream>
 
 #include "cairn/core/error.h"
 #include "cairn/core/executor.h"
@@ -174,6 +175,10 @@ TEST(OctreeFile, BinaryTreeHoldsOccupiedAndFree) {
   const OccupancyGrid grid = build(1);
   const auto path = test_scene::temporary_path("binary.bt");
   write_octree(path, grid, octree_contents(path, grid.colored()));
+  octomap::OcTree theirs = build_with_octomap();
+  std::ostringstream their_bytes;
+  theirs.writeBinary(their_bytes);
+  EXPECT_EQ(read_file(path), their_bytes.str());
   octomap::OcTree tree(path.string());
   tree.expand();
   OccupancyGrid::Counts counts;

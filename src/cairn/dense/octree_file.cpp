@@ -71,6 +71,16 @@ void fill(Tree& tree, const OccupancyGrid& grid) {
   tree.prune();
 }
 
+/// What octomap's writeBinary does, which prints to stderr as well.
+void write_binary(octomap::OcTree& tree, std::ostream& stream) {
+  tree.toMaxLikelihood();
+  tree.prune();
+  stream << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line "
+            "as it is!)\n"
+         << "#\nid OcTree\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  if (tree.getRoot() != nullptr) tree.writeBinaryNode(stream, tree.getRoot());
+}
+
 template <class Tree, class Write>
 OctreeFileReport write_tree(const std::filesystem::path& path, const OccupancyGrid& grid,
                             const Write& write) {
@@ -100,8 +110,7 @@ OctreeFileReport write_octree(const std::filesystem::path& path, const Occupancy
   const auto write_all = [](auto& tree, std::ostream& stream) { tree.write(stream); };
   switch (contents) {
     case OctreeContents::binary:
-      return write_tree<octomap::OcTree>(
-          path, grid, [](octomap::OcTree& tree, std::ostream& stream) { tree.writeBinary(stream); });
+      return write_tree<octomap::OcTree>(path, grid, write_binary);
     case OctreeContents::color:
       return write_tree<octomap::ColorOcTree>(path, grid, write_all);
     case OctreeContents::plain:

@@ -53,7 +53,7 @@ struct VoxelSums::Row {
       const double rx = valid ? ray_x[i] : 0.0, ry = valid ? ray_y[i] : 0.0;
       const auto on_grid = [&](int axis) {
         const double along = r(axis, 0) * rx + r(axis, 1) * ry + r(axis, 2);
-        return static_cast<std::uint32_t>(static_cast<std::int64_t>(along * z_in_camera + t[axis]));
+        return static_cast<std::uint32_t>(static_cast<std::int32_t>(along * z_in_camera + t[axis]));
       };
       x[i] = valid ? on_grid(0) : kNoPoint;
       y[i] = on_grid(1);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "cairn/dense/fuse_sequence.h"
+#include "common.h"
+
+namespace cairn::app {
+
+/// What `cairn cloud` and `cairn octree` have in common: a sequence, its poses, and what became of its
+/// frames.
+struct PosedSequence {
+  Sequence sequence;
+  std::vector<std::optional<Rigid3>> world_from_camera;
+};
+
+/// `poses` may be empty where the sequence has truth.
+[[nodiscard]] PosedSequence open_posed_sequence(const SequenceArguments& arguments, const std::string& poses);
+
+void print_report(const FusionReport& report);
+[[nodiscard]] nlohmann::ordered_json to_json(const FusionReport& report);
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  Stopwatch();
+  [[nodiscard]] double seconds() const;
+
+ private:
+  std::int64_t begun_ns_;
+};
+
+/// "1.5 MB"
+[[nodiscard]] std::string format_bytes(std::int64_t bytes);
+
+}  // namespace cairn::app
