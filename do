@@ -125,6 +125,7 @@ END
 tidy() {
   need "${packages_build[@]}" "${packages_tidy[@]}"
   configure tidy
+  ninja -C build/tidy build.ninja >/dev/null  # where the build description changed
   python3 tests/run_tidy.py --build build/tidy "$@"
 }
 

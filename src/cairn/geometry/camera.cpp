@@ -8,6 +8,31 @@ namespace {
 
 constexpr double kMinDepth = 1e-9;
 
+/// True where 1 + c0 x + c1 x^2 + c2 x^3 + c3 x^4, the slope of the distorted over the undistorted radius, is
+/// above 0 from 0 to x. Beyond its first zero the image folds back, and a point far outside the field of view
+/// would fall on a pixel within it. Looks at points a fifth apart, down to where the absolute values of the
+/// terms rule a zero out.
+bool rises_up_to(double x, const std::array<double, 4>& c) {
+  if (!std::isfinite(x)) return false;
+  const auto sum = [&](double a, double b, double d, double e) {
+    return x * (a + x * (b + x * (d + x * e)));
+  };
+  while (sum(std::abs(c[0]), std::abs(c[1]), std::abs(c[2]), std::abs(c[3])) >= 1.0) {
+    if (!(1.0 + sum(c[0], c[1], c[2], c[3]) > 0)) return false;
+    x *= 0.8;
+  }
+  return true;
+}
+
+/// Tangential terms left out: they are small.
+bool radtan_rises_up_to(const std::array<double, 5>& d, double radius_squared) {
+  return rises_up_to(radius_squared, {3.0 * d[0], 5.0 * d[1], 7.0 * d[4], 0.0});
+}
+
+bool kb4_rises_up_to(const std::array<double, 5>& d, double theta) {
+  return rises_up_to(theta * theta, {3.0 * d[0], 5.0 * d[1], 7.0 * d[2], 9.0 * d[3]});
+}
+
 /// OpenCV's documentation of calib3d, "Detailed description": radial and tangential distortion.
 Eigen::Vector2d distort_radtan(const std::array<double, 5>& d, const Eigen::Vector2d& p) {
   const double r2 = p.squaredNorm();
@@ -29,8 +54,9 @@ Eigen::Matrix2d distort_radtan_jacobian(const std::array<double, 5>& d, const Ei
   return j;
 }
 
-std::optional<Eigen::Vector2d> undistort_radtan(const std::array<double, 5>& d,
-                                                const Eigen::Vector2d& distorted) {
+/// Any solution of distort_radtan(p) = distorted, not always the one next to the centre.
+std::optional<Eigen::Vector2d> solve_radtan(const std::array<double, 5>& d,
+                                            const Eigen::Vector2d& distorted) {
   Eigen::Vector2d p = distorted;
   for (int i = 0; i < 20; ++i) {  // Newton
     const Eigen::Vector2d error = distort_radtan(d, p) - distorted;
@@ -43,6 +69,13 @@ std::optional<Eigen::Vector2d> undistort_radtan(const std::array<double, 5>& d,
          determinant;
   }
   if ((distort_radtan(d, p) - distorted).norm() < 1e-9) return p;
+  return std::nullopt;
+}
+
+std::optional<Eigen::Vector2d> undistort_radtan(const std::array<double, 5>& d,
+                                                const Eigen::Vector2d& distorted) {
+  auto p = solve_radtan(d, distorted);
+  if (p && radtan_rises_up_to(d, p->squaredNorm())) return p;
   return std::nullopt;
 }
 
@@ -71,6 +104,7 @@ std::optional<Eigen::Vector2d> undistort_kb4(const std::array<double, 5>& d,
   }
   constexpr double kMaxTheta = 1.5533;  // 89 degrees: beyond, no finite (x/z, y/z)
   if (theta < 0 || theta > kMaxTheta || std::abs(kb4_radius(d, theta) - radius) > 1e-9) return std::nullopt;
+  if (!kb4_rises_up_to(d, theta)) return std::nullopt;
   return distorted * (std::tan(theta) / radius);
 }
 
@@ -92,10 +126,13 @@ std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& point_in_c
   if (!(point_in_camera.z() > kMinDepth)) return std::nullopt;
   Eigen::Vector2d p = point_in_camera.head<2>() / point_in_camera.z();
   if (model == CameraModel::radtan) {
+    if (!radtan_rises_up_to(distortion, p.squaredNorm())) return std::nullopt;
     p = distort_radtan(distortion, p);
   } else if (model == CameraModel::kb4) {
     const double r = p.norm();
-    if (r > 1e-12) p *= kb4_radius(distortion, std::atan(r)) / r;
+    const double theta = std::atan(r);
+    if (!kb4_rises_up_to(distortion, theta)) return std::nullopt;
+    if (r > 1e-12) p *= kb4_radius(distortion, theta) / r;
   }
   return Eigen::Vector2d(fx * p.x() + cx, fy * p.y() + cy);
 }

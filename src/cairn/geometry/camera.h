@@ -23,7 +23,8 @@ struct Camera {
   double cx = 0, cy = 0;               ///< pixels
   std::array<double, 5> distortion{};  ///< in the model's order, 0 where unused
 
-  /// Pixel of a point in the camera's frame; nothing for a point that is not in front of the camera.
+  /// Pixel of a point in the camera's frame; nothing for a point that is not in front of the camera, or so
+  /// far aside that the distortion would fold it back into the image.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_in_camera) const;
   /// (x/z, y/z) of the ray through a pixel; nothing where the distortion cannot be inverted.
   [[nodiscard]] std::optional<Eigen::Vector2d> unproject(const Eigen::Vector2d& pixel) const;
