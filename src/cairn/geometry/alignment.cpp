@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/geometry/alignment.h"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+#include "cairn/core/error.h"
+
+namespace cairn {
+namespace {
+
+using Points = std::span<const Eigen::Vector3d>;
+
+constexpr double kRelativeRank = 1e-10;  ///< below this share of the largest, a singular value is rounding
+
+Eigen::Vector3d mean_of(Points points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+/// mean (a_i - mean_a) (b_i - mean_b)^T
+Eigen::Matrix3d covariance(Points a, const Eigen::Vector3d& mean_a, Points b, const Eigen::Vector3d& mean_b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - mean_a) * (b[i] - mean_b).transpose();
+  return sum / static_cast<double>(a.size());
+}
+
+AlignmentStatus spread_of(const Eigen::Matrix3d& variance, const Eigen::Vector3d& mean) {
+  const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::Matrix3d>(variance).singularValues();
+  constexpr double kRounding = 1e-14;  // of coordinates
+  if (std::sqrt(values[0]) <= kRounding * (mean.norm() + 1e-6)) return AlignmentStatus::one_place;
+  // squared because these are variances, of which the square roots are lengths
+  if (values[1] <= kRelativeRank * kRelativeRank * values[0]) return AlignmentStatus::one_line;
+  return AlignmentStatus::ok;
+}
+
+double rms_distance(const Similarity3& target_from_source, Points source, Points target) {
+  double sum = 0;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    sum += (target[i] - target_from_source * source[i]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(source.size()));
+}
+
+}  // namespace
+
+Alignment align_points(Points source, Points target, bool with_scale) {
+  require(source.size() == target.size(), "points to align correspond by position");
+  if (source.size() < 3) return {};
+  const Eigen::Vector3d source_mean = mean_of(source), target_mean = mean_of(target);
+  const Eigen::Matrix3d source_variance = covariance(source, source_mean, source, source_mean);
+  const Eigen::Matrix3d target_variance = covariance(target, target_mean, target, target_mean);
+  Alignment result;
+  result.status = spread_of(source_variance, source_mean);
+  if (result.status == AlignmentStatus::ok) result.status = spread_of(target_variance, target_mean);
+  if (result.status != AlignmentStatus::ok) return result;
+
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance(target, target_mean, source, source_mean),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  if (svd.singularValues()[1] <= kRelativeRank * svd.singularValues()[0]) {
+    result.status = AlignmentStatus::one_line;
+    return result;
+  }
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign[2] = -1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  Similarity3& found = result.target_from_source;
+  if (with_scale) found.scale = svd.singularValues().dot(sign) / source_variance.trace();
+  found.rotation = Eigen::Quaterniond(rotation).normalized();
+  found.translation = target_mean - found.scale * (found.rotation * source_mean);
+  result.rmse = rms_distance(found, source, target);
+  return result;
+}
+
+}  // namespace cairn
