@@ -19,15 +19,22 @@ void on_interrupt(int signal) {
   if (interrupted.exchange(true)) std::_Exit(128 + signal);
 }
 
-class SilentProgress : public Progress {
+/// A stop ends the stage it came in; the next one, which writes what was done, begins afresh.
+class StoppableProgress : public Progress {
  public:
-  void warn(const std::string& message) override { fmt::print(stderr, "cairn: {}\n", message); }
+  void start(std::string_view, std::int64_t, std::string_view) override { interrupted = false; }
   [[nodiscard]] bool stop_requested() const override { return interrupted; }
 };
 
-class TerminalProgress : public Progress {
+class SilentProgress : public StoppableProgress {
+ public:
+  void warn(const std::string& message) override { fmt::print(stderr, "cairn: {}\n", message); }
+};
+
+class TerminalProgress : public StoppableProgress {
  public:
   void start(std::string_view stage, std::int64_t total, std::string_view unit) override {
+    StoppableProgress::start(stage, total, unit);
     stage_ = stage;
     unit_ = unit;
     total_ = total;
@@ -54,7 +61,6 @@ class TerminalProgress : public Progress {
     if (visible_ && terminal_) fmt::print(stderr, "\r\033[K");
     fmt::print(stderr, "cairn: {}\n", message);
   }
-  [[nodiscard]] bool stop_requested() const override { return interrupted; }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,57 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "cairn/core/file.h"
-#include "cairn/slam/rgbd_slam.h"
 #include "commands.h"
 #include "common.h"
+#include "fusion.h"
+#include "slam_outputs.h"
+#include "slam_parameters.h"
 
 namespace cairn::app {
+namespace {
+
+struct SlamArguments {
+  CommonOptions common;
+  SequenceArguments sequence;
+  std::string output;
+  bool odometry = false, no_cloud = false, no_octree = false;
+};
+
+void declare(CLI::App& app, SlamArguments& arguments) {
+  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence")->required();
+  app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
+      ->type_name("RUN")
+      ->required();
+  app.add_flag("--odometry", arguments.odometry, "track only: no loop closures, no pose graph");
+  app.add_flag("--no-cloud", arguments.no_cloud, "write no coloured cloud");
+  app.add_flag("--no-octree", arguments.no_octree, "write no octree");
+  add_sequence_options(app, arguments.sequence);
+  add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
+  app.footer(
+      "Example: cairn slam demo/room -o demo/run\n"
+      "         cairn slam SEQ -o RUN --set features=1500 --set keyframe_threshold=0.2\n"
+      "The README lists the parameters; RUN/config.yaml holds those of a run.");
+}
+
+SlamParameters gather_parameters(const SlamArguments& arguments) {
+  SlamParameters parameters;
+  parameters.sequence = arguments.sequence.options();
+  const SettingTable table = parameters.table();
+  if (!arguments.common.config.empty()) {
+    for (const Setting& setting : read_settings(arguments.common.config)) table.apply(setting);
+  }
+  for (const std::string& text : arguments.common.settings) table.apply(parse_setting(text, "--set"));
+  parameters.slam.seed = arguments.common.seed;
+  parameters.slam.odometry = arguments.odometry;
+  parameters.validate();
+  return parameters;
+}
+
+int report_nothing_tracked(const RgbdSlamResult& result) {
+  fmt::print(
+      stderr,
+      "cairn slam: no frame could be tracked: none of {} frames had enough features with depth to begin a "
+      "map.\n"
+      "  Look at the images and the depth; 'cairn info SEQ' shows the calibration. Nothing was written.\n",
+      result.frames.size());
+  return 1;
+}
+
+}  // namespace
 
 int run_slam(int argc, char** argv) {
-  CLI::App app("RGB-D SLAM", "slam");
-  CommonOptions common;
-  SequenceArguments arguments;
-  RgbdSlamOptions options;
-  std::string output;
-  app.add_option("SEQ", arguments.folder, "folder with a sequence")->required();
-  app.add_option("-o,--output", output, "run folder")->required();
-  app.add_option("--count", options.features.count);
-  app.add_option("--detector", options.features.detector);
-  app.add_option("--descriptor", options.features.descriptor);
-  app.add_option("--kf", options.keyframe_threshold);
-  app.add_option("--near", options.nearby_loops);
-  app.add_option("--rand", options.random_loops);
-  app.add_option("--sd", options.depth_noise.sigma_disparity_px);
-  app.add_option("--maxd", options.depth_noise.max_depth);
-  app.add_option("--jr", options.depth_noise.jump_radius);
-  app.add_option("--js", options.depth_noise.jump_sigmas);
-  app.add_flag("--odometry", options.odometry);
-  add_sequence_options(app, arguments);
-  add_common_options(app, common, {.config = true, .threads = true, .seed = true});
+  SlamArguments arguments;
+  CLI::App app(
+      "RGB-D SLAM: a sequence without poses becomes a trajectory, a keyframe map, a coloured cloud and an "
+      "octree.",
+      "slam");
+  declare(app, arguments);
   if (const auto code = parse(app, argc, argv)) return *code;
-  options.seed = common.seed;
-  const Sequence sequence = open_sequence(arguments.folder, arguments.options());
-  const Executor executor(common.thread_count());
-  const auto progress = make_progress(common);
-  OutputFolder folder(output);
-  const RgbdSlamResult result = run_rgbd_slam(sequence, options, executor, *progress);
-  write_file(folder.work() / "trajectory.txt", format_tum_trajectory(result.trajectory()));
-  write_file(folder.work() / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
-  if (sequence.truth) write_file(folder.work() / "truth.txt", format_tum_trajectory(*sequence.truth));
+
+  const Stopwatch watch;
+  SlamParameters parameters = gather_parameters(arguments);
+  const SlamOutputs wanted{!arguments.no_cloud, !arguments.no_octree};
+  const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
+  OutputFolder folder(arguments.output, "run");
+  const Executor executor(arguments.common.thread_count());
+  const auto progress = make_progress(arguments.common);
+
+  const RgbdSlamResult result = run_rgbd_slam(sequence, parameters.slam, executor, *progress);
+  if (result.map.keyframes.empty()) return report_nothing_tracked(result);
+  SlamSummary summary;
+  summary.threads = executor.threads();
+  write_slam_files(folder.work(), result, parameters);
+  write_dense_files(folder.work(), sequence, result, parameters, wanted, executor, *progress, summary);
+  add_accuracy(sequence, result, summary);
+  summary.total_seconds = watch.seconds();
+  const std::string json = format_run_json(sequence, result, summary);
+  write_file(folder.work() / "run.json", json);
   folder.commit();
-  const auto tracked = result.trajectory().size();
-  fmt::print("tracked {}/{} keyframes {} loops tried {} near {} far {} chi2 {} -> {}\n", tracked,
-             result.frames.size(), result.map.keyframes.size(), result.loops.tried, result.loops.nearby,
-             result.loops.far, result.graph_report.chi2_before, result.graph_report.chi2_after);
-  const auto& s = result.seconds;
-  fmt::print("decode {:.2f} features {:.2f} tracking {:.2f} loops {:.2f} graph {:.2f}\n", s.decode,
-             s.features, s.tracking, s.loops, s.graph);
-  double sum = 0;
-  for (const auto& f : result.frames) sum += f.inliers;
-  fmt::print("mean inliers {:.1f}\n", sum / double(result.frames.size()));
+  arguments.common.json ? fmt::print("{}", json)
+                        : print_summary(sequence, result, summary, arguments.output, wanted);
   return 0;
 }
 

@@ -25,9 +25,11 @@ const std::array<FolderPair, 5> kHabits{{{"rgb_index", "dep_index"},
                                          {"color", "depth"},
                                          {"image", "depth"}}};
 
+/// In the sequence's folder, else from where the program runs, as old parameter files have it.
 fs::path resolve(const fs::path& folder, const std::string& name) {
   const fs::path path(name);
-  return path.is_absolute() ? path : folder / path;
+  const bool from_here = path.is_absolute() || !fs::exists(folder / path);
+  return from_here ? path : folder / path;
 }
 
 std::string without_dot(const std::string& extension) {
@@ -43,7 +45,8 @@ std::map<std::int64_t, fs::path> numbered_files(const fs::path& folder, const st
   std::map<std::int64_t, fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     std::int64_t number = 0;
-    const bool fits = extension.empty() || entry.path().extension() == fmt::format(".{}", without_dot(extension));
+    const bool fits =
+        extension.empty() || entry.path().extension() == fmt::format(".{}", without_dot(extension));
     if (fits && parse_integer(entry.path().stem().string(), number) && number >= 0)
       files[number] = entry.path();
   }

@@ -8,6 +8,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/image/codec.h"
 #include "cairn/sequence/association.h"
 #include "cairn/sequence/formats.h"
 
@@ -23,7 +24,6 @@ void choose_calibration(const fs::path& folder, const SequenceOptions& options, 
     sequence.calibration = calibration;
     sequence.calibration_source = std::move(source);
   };
-  if (options.calibration) return take(*options.calibration, "the parameters");
   if (!options.camera.empty()) {
     if (const auto known = known_calibration(options.camera)) return take(*known, options.camera);
     return take(read_calibration(options.camera), options.camera);
@@ -47,6 +47,36 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   if (is_kitti(folder)) return list_kitti(folder, sequence);
   if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
   fail_unknown_format(folder);
+}
+
+void check_parameters(const CameraParameters& given) {
+  const auto check = [](const std::optional<double>& value, const char* name) {
+    if (!value || *value > 0) return;
+    throw InputError({name, 0, "a number above 0", fmt::format("{}", *value), "Mend the value."});
+  };
+  check(given.fx, "camera.fx");
+  check(given.fy, "camera.fy");
+  check(given.scale, "camera.scale");
+}
+
+/// Parameters alone make a calibration, too: without distortion, of the first image's size.
+void apply_parameters(const CameraParameters& given, Sequence& sequence) {
+  check_parameters(given);
+  Calibration& calibration = sequence.calibration;
+  Camera& camera = calibration.camera;
+  if (camera.width == 0 && given.fx && given.fy && given.cx && given.cy && !sequence.frames.empty()) {
+    const GrayImage first = read_gray(sequence.frames.front().color);
+    camera.width = first.width();
+    camera.height = first.height();
+    sequence.calibration_source = "the parameters";
+  }
+  camera.fx = given.fx.value_or(camera.fx);
+  camera.fy = given.fy.value_or(camera.fy);
+  camera.cx = given.cx.value_or(camera.cx);
+  camera.cy = given.cy.value_or(camera.cy);
+  if (!given.scale) return;
+  if (!calibration.depth) calibration.depth.emplace();
+  calibration.depth->scale = *given.scale;
 }
 
 void check_calibration(const fs::path& folder, const Sequence& sequence) {
@@ -162,6 +192,7 @@ Sequence open_sequence(const fs::path& folder, const SequenceOptions& options) {
     sequence.calibration_source = chosen.calibration_source;
   }
   select_frames(options, sequence);
+  apply_parameters(options.camera_parameters, sequence);
   check_calibration(folder, sequence);
   honour_poses_are(sequence);
   return sequence;

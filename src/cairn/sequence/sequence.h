@@ -53,10 +53,16 @@ struct FrameRange {
 /// "10:200", ":50", "::2". InputError naming `option` otherwise.
 [[nodiscard]] FrameRange parse_frame_range(const std::string& text, const std::string& option);
 
+/// Parts of a calibration as parameter files give them (camera.fx, camera.scale ...).
+struct CameraParameters {
+  std::optional<double> fx, fy, cx, cy;  ///< pixels
+  std::optional<double> scale;           ///< depth, units per metre
+};
+
 struct SequenceOptions {
   std::string camera;  ///< path of a camera.yaml, or tum-fr1|tum-fr2|tum-fr3; empty: the sequence's own
-  std::optional<Calibration> calibration;  ///< given by a parameter file; goes before all others
-  std::string rgb_dir, rgb_extension;      ///< numbered files, where given
+  CameraParameters camera_parameters;  ///< go before what the calibration says
+  std::string rgb_dir, rgb_extension;  ///< numbered files, where given
   std::string depth_dir, depth_extension;
   std::optional<std::int64_t> start_index, end_index;  ///< file numbers, inclusive
   double max_stamp_gap_s = 0.02;      ///< TUM: largest difference of an associated pair (as the TUM tools)

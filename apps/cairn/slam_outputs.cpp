@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slam_outputs.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cairn/core/file.h"
+#include "cairn/dense/cloud_file.h"
+#include "cairn/dense/fuse_sequence.h"
+#include "cairn/dense/octree_file.h"
+#include "cairn/dense/overview.h"
+#include "cairn/evaluate/evaluation.h"
+#include "cairn/image/codec.h"
+#include "cairn/map/g2o_file.h"
+#include "fusion.h"
+
+namespace cairn::app {
+namespace {
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+struct FrameCounts {
+  std::int64_t frames = 0, tracked = 0, relocalized = 0, too_far = 0, not_matched = 0;
+  int median_inliers = 0;
+};
+
+FrameCounts count_frames(const RgbdSlamResult& result) {
+  FrameCounts counts;
+  std::vector<int> inliers;
+  for (const FrameTrack& track : result.frames) {
+    ++counts.frames;
+    counts.relocalized += track.relocalized ? 1 : 0;
+    counts.tracked += track.tracked() ? 1 : 0;
+    counts.too_far += track.decision == KeyframeDecision::too_far ? 1 : 0;
+    counts.not_matched += track.decision == KeyframeDecision::not_matched ? 1 : 0;
+    if (track.tracked()) inliers.push_back(track.inliers);
+  }
+  if (!inliers.empty()) {
+    const auto middle = inliers.begin() + static_cast<std::ptrdiff_t>(inliers.size() / 2);
+    std::nth_element(inliers.begin(), middle, inliers.end());
+    counts.median_inliers = *middle;
+  }
+  return counts;
+}
+
+double share(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+/// Poses of the keyframes' frames; nothing for all others.
+std::vector<std::optional<Rigid3>> keyframe_poses(const Sequence& sequence, const KeyframeMap& map) {
+  std::vector<std::optional<Rigid3>> poses(sequence.frames.size());
+  for (const Keyframe& keyframe : map.keyframes)
+    poses[static_cast<std::size_t>(keyframe.observed.frame.value)] = keyframe.world_from_camera;
+  return poses;
+}
+
+CameraPath path_of(const RgbdSlamResult& result) {
+  CameraPath path;
+  for (const FrameTrack& track : result.frames) {
+    if (!track.tracked()) continue;
+    const Keyframe& reference = result.map.keyframes[static_cast<std::size_t>(track.reference->value)];
+    if (track.frame == reference.observed.frame) path.keyframes.push_back(path.world_from_camera.size());
+    path.world_from_camera.push_back(reference.world_from_camera * track.reference_from_frame);
+  }
+  return path;
+}
+
+void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, const RgbdSlamResult& result,
+                       double voxel_size) {
+  write_cloud(folder / "cloud.ply", cloud);
+  write_png(folder / "cloud.png", draw_overview(cloud, path_of(result), voxel_size));
+}
+
+}  // namespace
+
+void write_slam_files(const std::filesystem::path& folder, const RgbdSlamResult& result,
+                      SlamParameters& parameters) {
+  write_file(folder / "trajectory.txt", format_tum_trajectory(result.trajectory()));
+  write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
+  write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
+  write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
+  write_file(folder / "config.yaml",
+             "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
+}
+
+void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
+                       const RgbdSlamResult& result, const SlamParameters& parameters,
+                       const SlamOutputs& wanted, const Executor& executor, Progress& progress,
+                       SlamSummary& summary) {
+  if (!wanted.cloud && !wanted.octree) return;
+  const Stopwatch watch;
+  CloudBuilder cloud_builder(parameters.cloud);
+  OccupancyGrid grid(parameters.octree);
+  const FusionTargets targets{wanted.cloud ? &cloud_builder : nullptr, wanted.octree ? &grid : nullptr};
+  (void)fuse_sequence(sequence, keyframe_poses(sequence, result.map), targets, executor, progress);
+  if (wanted.cloud) {
+    const Cloud cloud = cloud_builder.take();
+    summary.cloud_points = static_cast<std::int64_t>(cloud.points.size());
+    write_cloud_files(folder, cloud, result, parameters.cloud.voxel_size);
+  }
+  if (wanted.octree) {
+    write_octree(folder / "octree.ot", grid, octree_contents("octree.ot", grid.colored()));
+    const OccupancyGrid::Counts counts = grid.counts();
+    summary.occupied_voxels = counts.occupied;
+    summary.free_voxels = counts.free;
+  }
+  summary.fusion_seconds = watch.seconds();
+}
+
+void add_accuracy(const Sequence& sequence, const RgbdSlamResult& result, SlamSummary& summary) {
+  if (!sequence.truth) return;
+  const TrajectoryEvaluation evaluation = evaluate_trajectory(result.trajectory(), *sequence.truth);
+  if (evaluation.status != EvaluationStatus::ok || !evaluation.ate_m) return;
+  summary.ate_m = evaluation.ate_m->rmse;
+  summary.ate_pairs = static_cast<std::int64_t>(evaluation.pairs.size());
+}
+
+std::string format_run_json(const Sequence& sequence, const RgbdSlamResult& result,
+                            const SlamSummary& summary) {
+  const FrameCounts counts = count_frames(result);
+  const StageSeconds& s = result.seconds;
+  nlohmann::ordered_json json;
+  json["cairn"] = CAIRN_VERSION;
+  json["sequence"] = sequence.folder.string();
+  json["frames"] = {
+      {"total", sequence.frames.size()},   {"processed", counts.frames},
+      {"tracked", counts.tracked},         {"tracked_percent", share(counts.tracked, counts.frames)},
+      {"too_far", counts.too_far},         {"not_matched", counts.not_matched},
+      {"relocalized", counts.relocalized}, {"unreadable", result.unreadable}};
+  json["stopped"] = result.stopped;
+  json["median_inliers"] = counts.median_inliers;
+  json["keyframes"] = result.map.keyframes.size();
+  json["loops"] = {{"tried", result.loops.tried}, {"nearby", result.loops.nearby}, {"far", result.loops.far}};
+  json["graph"] = {{"edges", result.graph_after.edges.size()},
+                   {"chi2_before", result.graph_report.chi2_before},
+                   {"chi2_after", result.graph_report.chi2_after},
+                   {"iterations", result.graph_report.iterations}};
+  json["ate_rmse_m"] = summary.ate_m ? nlohmann::ordered_json(*summary.ate_m) : nullptr;
+  json["cloud_points"] = summary.cloud_points;
+  json["octree"] = {{"occupied", summary.occupied_voxels}, {"free", summary.free_voxels}};
+  json["threads"] = summary.threads;
+  json["seconds"] = {{"total", summary.total_seconds},  {"decode", s.decode}, {"features", s.features},
+                     {"tracking", s.tracking},          {"loops", s.loops},   {"graph", s.graph},
+                     {"fusion", summary.fusion_seconds}};
+  json["peak_memory_mb"] = peak_memory_mb();
+  return json.dump(2) + "\n";
+}
+
+void print_summary(const Sequence& sequence, const RgbdSlamResult& result, const SlamSummary& summary,
+                   const std::string& folder, const SlamOutputs& wanted) {
+  const FrameCounts counts = count_frames(result);
+  const StageSeconds& s = result.seconds;
+  fmt::print("frames       {} of {} tracked ({:.1f} %), median {} inliers\n", counts.tracked, counts.frames,
+             share(counts.tracked, counts.frames), counts.median_inliers);
+  if (counts.tracked < counts.frames) {
+    fmt::print("lost         {} not matched, {} too far, found again {} times\n", counts.not_matched,
+               counts.too_far, counts.relocalized);
+  }
+  if (!result.unreadable.empty()) fmt::print("unreadable   {} frames, skipped\n", result.unreadable.size());
+  if (result.stopped)
+    fmt::print("stopped      after {} of {} frames; the outputs hold what was done\n", counts.frames,
+               sequence.frames.size());
+  fmt::print("keyframes    {}\n", result.map.keyframes.size());
+  fmt::print("loops        {} nearby, {} far, of {} tried\n", result.loops.nearby, result.loops.far,
+             result.loops.tried);
+  fmt::print("pose graph   {} edges, chi2 {:.1f} -> {:.1f} in {} iterations\n",
+             result.graph_after.edges.size(), result.graph_report.chi2_before, result.graph_report.chi2_after,
+             result.graph_report.iterations);
+  if (summary.ate_m) {
+    fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",
+               100 * *summary.ate_m, summary.ate_pairs);
+  }
+  if (wanted.cloud)
+    fmt::print("cloud        {}/cloud.ply, {} points; a picture of it in cloud.png\n", folder,
+               summary.cloud_points);
+  if (wanted.octree)
+    fmt::print("octree       {}/octree.ot, {} occupied and {} free voxels\n", folder, summary.occupied_voxels,
+               summary.free_voxels);
+  fmt::print("time         {:.1f} s on {} threads, {:.1f} frames/s\n", summary.total_seconds, summary.threads,
+             static_cast<double>(counts.frames) / summary.total_seconds);
+  fmt::print(
+      "  cpu        decode {:.1f}, features {:.1f}, tracking {:.1f}, loops {:.1f}, graph {:.1f}, fusion "
+      "{:.1f} s\n",
+      s.decode, s.features, s.tracking, s.loops, s.graph, summary.fusion_seconds);
+  fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
+  fmt::print("written to   {}\n", folder);
+  if (sequence.truth) fmt::print("next         cairn evaluate {} {}\n", folder, sequence.folder.string());
+}
+
+}  // namespace cairn::app
