@@ -78,7 +78,7 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = RgbdNoise::none;
   options.validate();
-  OutputFolder output(arguments.output);
+  OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);
   const Executor executor(arguments.common.thread_count());
   const SimulationReport report =
@@ -92,7 +92,7 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = StereoNoise::none;
   options.validate();
-  OutputFolder output(arguments.output);
+  OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);
   const Executor executor(arguments.common.thread_count());
   const SimulationReport report = write_kitti(SimulatedStreet(options, executor), output.work(),

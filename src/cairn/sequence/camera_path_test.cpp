@@ -40,7 +40,9 @@ TEST(room_path, moves_smoothly_at_about_the_speed_asked_for) {
     const Eigen::Vector3d step = now.translation - before.translation;
     EXPECT_LT(rotation_angle(motion.rotation), 0.05) << i;  // under 3 degrees a frame
     EXPECT_LT(step.norm(), 0.03) << i;
-    if (i > 1) EXPECT_LT((step - step_before).norm(), 0.002) << i;
+    if (i > 1) {
+      EXPECT_LT((step - step_before).norm(), 0.002) << i;
+    }
     length += step.norm();
     step_before = step;
     before = now;

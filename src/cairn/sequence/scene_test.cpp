@@ -83,6 +83,23 @@ TEST(scene, surface_reaching_behind_the_camera_is_cut_rightly) {
   EXPECT_EQ(image.depth(0, 30), 0.0F);
 }
 
+TEST(scene, texture_lies_where_it_was_painted) {
+  SceneBuilder builder(0.01, 1);
+  builder.add_wall({0, 2, -1}, -Eigen::Vector3d::UnitY(), 3, 2, [](Canvas& canvas, Random&) {
+    canvas.fill(Color::Zero());
+    canvas.draw({{1.1, 0.7}, {0.1, 0.1}, 0, false, Color::Constant(250), 1});  // from the top left
+  });
+  Scene scene = builder.build(Executor());
+  scene.background = Color::Zero();
+  const Camera camera = small_camera();
+  const SceneImage image = render_scene(scene, camera, looking_along_y());
+  Eigen::Vector3d sum(0, 0, 0);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) sum += image.light(u, v)[0] * Eigen::Vector3d(u, v, 1);
+  EXPECT_NEAR(sum.x() / sum.z(), camera.cx + camera.fx * (1.1 - 1.5) / 2, 0.05);
+  EXPECT_NEAR(sum.y() / sum.z(), camera.cy + camera.fy * (0.7 - 1.0) / 2, 0.05);
+}
+
 TEST(scene, borders_between_surfaces_are_antialiased) {
   SceneBuilder builder(0.05, 1);
   builder.add_wall({-1.01, 2, -2}, -Eigen::Vector3d::UnitY(), 2, 4, plain({200, 200, 200}));

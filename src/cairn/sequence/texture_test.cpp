@@ -48,7 +48,7 @@ TEST(texture, border_is_repeated_beyond) {
 }
 
 TEST(texture, needs_a_picture) {
-  EXPECT_THROW(Texture(RgbImage()), PreconditionError);
+  EXPECT_THROW(Texture{RgbImage{}}, PreconditionError);
 }
 
 }  // namespace
