@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cairn/core/error.h"
+#include "cairn/dense/depth_edges.h"
 
 namespace cairn {
 
@@ -34,6 +35,10 @@ void CloudOptions::validate() const {
     throw InputError({"max_depth", 0, fmt::format("a depth above {} m", min_depth),
                       fmt::format("{}", max_depth), "4 suits a Kinect."});
   }
+  if (!(max_edge_step >= 0)) {
+    throw InputError({"max_edge_step", 0, "a share of 0 or more", fmt::format("{}", max_edge_step),
+                      "0 keeps all pixels, 0.05 leaves out those at edges in depth."});
+  }
 }
 
 CloudBuilder::CloudBuilder(const CloudOptions& options)
@@ -43,7 +48,10 @@ VoxelSums CloudBuilder::reduce(const DepthImage& depth, const RgbImage& color, c
                                const Rigid3& world_from_camera) const {
   require(!color.empty(), "a coloured cloud needs colour images");
   VoxelSums frame(options_.voxel_size);
-  frame.add_image(depth, color, rays, world_from_camera, options_.min_depth, options_.max_depth);
+  const auto add = [&](const DepthImage& kept) {
+    frame.add_image(kept, color, rays, world_from_camera, options_.min_depth, options_.max_depth);
+  };
+  options_.max_edge_step > 0 ? add(without_depth_edges(depth, options_.max_edge_step)) : add(depth);
   return frame;
 }
 

@@ -10,6 +10,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/executor.h"
+#include "cairn/dense/depth_edges.h"
 #include "cairn/dense/test_scene.h"
 
 namespace cairn {
@@ -23,7 +24,7 @@ constexpr int kFrames = 12;
 
 Cloud fuse(int threads) {
   const PixelRays rays(test_scene::small_camera());
-  CloudBuilder builder({.voxel_size = 0.02});
+  CloudBuilder builder({.voxel_size = 0.02, .max_edge_step = 0});
   const Executor executor(threads);
   executor.ordered_pipeline<VoxelSums>(
       kFrames,
@@ -104,6 +105,20 @@ TEST(CloudBuilder, DepthsOutOfRangeAndPixelsWithoutARayAreLeftOut) {
   const Cloud cloud = builder.take();
   EXPECT_EQ(cloud.points.at(0).r, 15);
   EXPECT_EQ(builder.size(), 0U);
+}
+
+TEST(CloudBuilder, PixelsAtAnEdgeInDepthAreLeftOut) {
+  DepthImage depth(64, 48, 2.0F);
+  for (int v = 0; v < 48; ++v)
+    for (int u = 32; u < 64; ++u) depth(u, v) = 1.0F;
+  for (int v = 0; v < 48; ++v) depth(10, v) = 0.0F;  // a hole is no edge
+  const DepthImage kept = without_depth_edges(depth, 0.05);
+  for (int u = 0; u < 64; ++u) EXPECT_EQ(kept(u, 20), u >= 30 && u < 34 ? 0.0F : depth(u, 20)) << u;
+  EXPECT_EQ(without_depth_edges(depth, 1.5), depth);
+  DepthImage rows(4, 9, 2.0F);
+  for (int u = 0; u < 4; ++u) rows(u, 8) = 4.0F;
+  const DepthImage kept_rows = without_depth_edges(rows, 0.05);
+  for (int v = 0; v < 9; ++v) EXPECT_EQ(kept_rows(1, v), v == 6 || v == 8 ? 0.0F : 2.0F) << v;
 }
 
 TEST(CloudBuilder, BoundsHoldAllPoints) {

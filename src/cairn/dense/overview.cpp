@@ -36,10 +36,10 @@ double high_quantile(std::vector<double>& values) {
   return values[static_cast<std::size_t>(place)];
 }
 
-/// Where the eye must be so that the cells just fit: with k the tangent of half the view, |x - cx| <= k (z -
-/// cz) for all points bounds cz and gives cx; the same for y.
-Eigen::Vector3d fit_eye(const std::vector<SurfaceCell>& cells, const Eigen::Matrix3d& world_from_view,
-                        const Camera& camera) {
+/// Where the eye must be so that the cells and the whole path just fit: with k the tangent of half the view,
+/// |x - cx| <= k (z - cz) for all points bounds cz and gives cx; the same for y.
+Eigen::Vector3d fit_eye(const std::vector<SurfaceCell>& cells, const std::vector<Rigid3>& path,
+                        const Eigen::Matrix3d& world_from_view, const Camera& camera) {
   constexpr double kMargin = 0.94;
   const Eigen::Vector2d tangent =
       kMargin * Eigen::Vector2d(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy);
@@ -52,21 +52,26 @@ Eigen::Vector3d fit_eye(const std::vector<SurfaceCell>& cells, const Eigen::Matr
       right.push_back(p[axis] - tangent[axis] * p.z());
       left.push_back(-p[axis] - tangent[axis] * p.z());
     }
-    const double a = high_quantile(right), b = high_quantile(left);
+    double a = high_quantile(right), b = high_quantile(left);
+    for (const Rigid3& world_from_camera : path) {
+      const Eigen::Vector3d p = world_from_view.transpose() * world_from_camera.translation;
+      a = std::max(a, p[axis] - tangent[axis] * p.z());
+      b = std::max(b, -p[axis] - tangent[axis] * p.z());
+    }
     eye_in_view[axis] = 0.5 * (a - b);
     eye_in_view.z() = std::min(eye_in_view.z(), -0.5 * (a + b) / tangent[axis]);
   }
   return world_from_view * eye_in_view;
 }
 
-View fit_view(const CloudSurface& surface, const Eigen::Vector3d& up, double azimuth, double elevation,
-              int width, int height) {
+View fit_view(const CloudSurface& surface, const std::vector<Rigid3>& path, const Eigen::Vector3d& up,
+              double azimuth, double elevation, int width, int height) {
   const Eigen::Vector3d side = up.unitOrthogonal();
   const Eigen::Vector3d level = std::cos(azimuth) * side + std::sin(azimuth) * up.cross(side);
   const Eigen::Matrix3d rotation = look_along(std::cos(elevation) * level - std::sin(elevation) * up, up);
   View view{view_camera(width, height), {}};
   view.world_from_camera.rotation = Eigen::Quaterniond(rotation);
-  view.world_from_camera.translation = fit_eye(surface.cells(), rotation, view.camera);
+  view.world_from_camera.translation = fit_eye(surface.cells(), path, rotation, view.camera);
   return view;
 }
 
@@ -135,14 +140,14 @@ View overview_of(const CloudSurface& surface, const std::vector<Rigid3>& path, i
     for (int i = 0; i < kAzimuths; ++i) {
       const double azimuth = 2 * std::numbers::pi * i / kAzimuths;
       const double value =
-          score(surface, fit_view(surface, up, azimuth, elevation, kSmallWidth, small_height));
+          score(surface, fit_view(surface, path, up, azimuth, elevation, kSmallWidth, small_height));
       if (value <= best) continue;
       best = value;
       best_azimuth = azimuth;
       best_elevation = elevation;
     }
   }
-  return fit_view(surface, up, best_azimuth, best_elevation, width, height);
+  return fit_view(surface, path, up, best_azimuth, best_elevation, width, height);
 }
 
 RgbImage draw_overview(const Cloud& cloud, const CameraPath& path, double voxel_size, int width, int height) {

@@ -26,7 +26,7 @@ struct CameraPath {
 struct RenderOptions {
   double point_size = 0.01;   ///< metres: the cloud's voxel size, so that surfaces close
   int supersampling = 2;      ///< drawn so many times larger and averaged down: smooth edges
-  double edge_strength = 45;  ///< how much an edge in depth darkens what lies behind it; 0: not at all
+  double edge_strength = 35;  ///< how much an edge in depth darkens what lies behind it; 0: not at all
   Rgb8 background_top{250, 251, 252}, background_bottom{222, 227, 233};
 };
 
