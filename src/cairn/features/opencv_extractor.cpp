@@ -13,6 +13,7 @@ namespace cairn {
 namespace {
 
 constexpr float kOrbPatch = 31.0F;  // pixels, diameter at the lowest pyramid level
+constexpr int kSmallestSide = 32;   // pixels: no patch fits below, and OpenCV's pyramids throw
 constexpr double kOrbScale = 1.2;   // between pyramid levels
 
 std::string upper(std::string text) {
@@ -65,6 +66,7 @@ class OpencvExtractor : public Extractor {
   }
 
   [[nodiscard]] Features extract(const GrayImage& image) const override {
+    if (image.width() < kSmallestSide || image.height() < kSmallestSide) return {};
     // OpenCV takes no const pixels; it does not write to its input.
     const cv::Mat mat(image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data()));
     std::vector<cv::KeyPoint> keypoints;

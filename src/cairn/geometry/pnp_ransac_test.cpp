@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/geometry/pnp_ransac.h"
+
+#include <gtest/gtest.h>
+
+#include "cairn/core/random.h"
+
+namespace cairn {
+namespace {
+
+constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
+
+struct Scene {
+  Rigid3 camera_from_world;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Observation> seen;
+};
+
+/// Points in view at 1 to 5 m, seen with half a pixel of noise; the first `outliers` of them anywhere in the
+/// image.
+Scene make_scene(int count, int outliers, std::uint64_t seed) {
+  Random random(seed);
+  Scene scene;
+  scene.camera_from_world = {rotation_exp({random.normal(), random.normal(), random.normal()}),
+                             {random.normal(), random.normal(), random.normal()}};
+  const Rigid3 world_from_camera = scene.camera_from_world.inverse();
+  for (int i = 0; i < count; ++i) {
+    const double depth = random.uniform(1, 5);
+    const Eigen::Vector3d in_camera = kRig.point_at(random.uniform(0, 639), random.uniform(0, 479), depth);
+    const Eigen::Vector3d exact = kRig.project(in_camera);
+    Observation seen{exact.x() + 0.5 * random.normal(), exact.y() + 0.5 * random.normal(),
+                     exact.z() + 0.1 * random.normal(), 0.5, 0.1};
+    if (i < outliers)
+      seen = {random.uniform(0, 639), random.uniform(0, 479), kRig.disparity(random.uniform(1, 5)), 0.5, 0.1};
+    scene.points.push_back(world_from_camera * in_camera);
+    scene.seen.push_back(seen);
+  }
+  return scene;
+}
+
+TEST(PnpRansac, finds_the_pose_among_outliers) {
+  for (const int outliers : {0, 50, 100, 140}) {
+    const Scene scene = make_scene(200, outliers, 30 + static_cast<std::uint64_t>(outliers));
+    const PnpResult result = solve_pnp_ransac(kRig, scene.points, scene.seen, {});
+    ASSERT_TRUE(result.found) << outliers;
+    EXPECT_LT(motion_norm(result.camera_from_world * scene.camera_from_world.inverse()), 0.05) << outliers;
+    int wrong = 0;
+    for (const std::int32_t i : result.inliers) wrong += i < outliers ? 1 : 0;
+    EXPECT_LE(wrong, 2) << outliers;
+    EXPECT_GT(static_cast<int>(result.inliers.size()), (200 - outliers) / 2) << outliers;
+  }
+}
+
+TEST(PnpRansac, stops_early_where_all_agree) {
+  const Scene scene = make_scene(200, 0, 40);
+  EXPECT_LT(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).iterations, 50);
+}
+
+TEST(PnpRansac, has_few_inliers_where_nothing_fits) {
+  const Scene scene = make_scene(200, 200, 41);
+  EXPECT_LT(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).inliers.size(), 12U);
+}
+
+TEST(PnpRansac, does_not_begin_with_fewer_than_four_points) {
+  for (const int count : {0, 1, 3}) {
+    const Scene scene = make_scene(count, 0, 42);
+    EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found);
+  }
+}
+
+TEST(PnpRansac, finds_nothing_where_all_points_are_one) {
+  Scene scene = make_scene(20, 0, 43);
+  for (auto& point : scene.points) point = scene.points[0];
+  for (auto& seen : scene.seen) seen = scene.seen[0];
+  EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found);
+}
+
+TEST(PnpRansac, repeats_itself_from_the_seed) {
+  const Scene scene = make_scene(100, 60, 44);
+  const PnpResult a = solve_pnp_ransac(kRig, scene.points, scene.seen, {.seed = 7});
+  const PnpResult b = solve_pnp_ransac(kRig, scene.points, scene.seen, {.seed = 7});
+  EXPECT_EQ(a.inliers, b.inliers);
+  EXPECT_EQ(a.camera_from_world.rotation.coeffs(), b.camera_from_world.rotation.coeffs());
+  EXPECT_EQ(a.camera_from_world.translation, b.camera_from_world.translation);
+}
+
+}  // namespace
+}  // namespace cairn
