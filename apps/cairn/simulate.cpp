@@ -31,7 +31,7 @@ void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--speed", options.speed, "metres a second")->capture_default_str()->type_name("V");
-  app.add_option("--loops", options.loops, "times around; 0: as many as the way needs")
+  app.add_option("--loops", options.loops, "times around; 0: as many as the way needs, or a part of one")
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--scale", arguments.scale, "image width and height over the default's")
