@@ -31,7 +31,7 @@ void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--speed", options.speed, "metres a second")->capture_default_str()->type_name("V");
-  app.add_option("--loops", options.loops, "times around; 0: as many as the way needs")
+  app.add_option("--loops", options.loops, "times around; 0: as many as the way needs, or a part of one")
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--scale", arguments.scale, "image width and height over the default's")
@@ -59,7 +59,8 @@ nlohmann::ordered_json to_json(const SimulationReport& report, const Arguments& 
   return json;
 }
 
-void print_report(const Arguments& arguments, const std::string& folder, const SimulationReport& report) {
+void print_report(const Arguments& arguments, const std::string& folder, const SimulationReport& report,
+                  const std::string& next) {
   if (arguments.common.json) {
     auto json = to_json(report, arguments);
     json["folder"] = folder;
@@ -70,7 +71,7 @@ void print_report(const Arguments& arguments, const std::string& folder, const S
              report.stopped ? ", stopped before the end" : "");
   fmt::print("path         {:.3f} m\n", report.length);
   fmt::print("written to   {}\n", folder);
-  fmt::print("next         cairn slam {} -o run\n", folder);
+  fmt::print("next         {}\n", next);
 }
 
 void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
@@ -84,7 +85,8 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   const SimulationReport report =
       write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress);
   output.commit();
-  print_report(arguments, output.target().string(), report);
+  const std::string folder = output.target().string();
+  print_report(arguments, folder, report, fmt::format("cairn slam {} -o run", folder));
 }
 
 void simulate_street(const Arguments& arguments, SimulateStreetOptions options) {
@@ -98,7 +100,8 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
   const SimulationReport report = write_kitti(SimulatedStreet(options, executor), output.work(),
                                               arguments.depth_truth, executor, *progress);
   output.commit();
-  print_report(arguments, output.target().string(), report);
+  const std::string folder = output.target().string();
+  print_report(arguments, folder, report, fmt::format("cairn info {}", folder));
 }
 
 }  // namespace

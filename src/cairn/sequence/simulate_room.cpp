@@ -24,14 +24,22 @@ double texel_for(const Camera& camera) {
   return 2.0 / camera.fx;
 }
 
+/// Seconds of the whole closed walk. Where the number of loops is left open, a loop is not walked in less
+/// than it takes a person to turn around at ease.
+double walk_duration(const SimulateRoomOptions& options) {
+  constexpr double kMinLoop = 8;
+  const double duration = options.frames_count / options.rate_hz;
+  return options.loops > 0 ? duration : std::max(duration, kMinLoop);
+}
+
 RoomPath path_for(const SimulateRoomOptions& options) {
   RoomPath::Shape shape;
   shape.center.head<2>() = kRoomSize.head<2>() / 2;
-  shape.duration = options.frames_count / options.rate_hz;
+  shape.duration = walk_duration(options);
   shape.length = options.speed * shape.duration;
   const double longest_loop = 2 * std::numbers::pi * shape.max_radius;
-  shape.loops = options.loops > 0 ? options.loops
-                                  : std::max(1, static_cast<int>(std::ceil(shape.length / longest_loop)));
+  const int needed = std::max(1, static_cast<int>(std::ceil(shape.length / longest_loop)));
+  shape.loops = options.loops > 0 ? options.loops : needed;
   return RoomPath(shape);
 }
 
@@ -79,6 +87,7 @@ void SimulateRoomOptions::validate() const {
 
 SimulatedRoom::SimulatedRoom(const SimulateRoomOptions& options, const Executor& executor)
     : options_(validated(options)),
+      share_per_frame_(1 / (walk_duration(options) * options.rate_hz)),
       path_(path_for(options)),
       scene_(furnished_room(texel_for(options.camera), options.seed).build(executor)) {}
 
@@ -97,7 +106,7 @@ std::int64_t SimulatedRoom::stamp_ns(int frame) const {
 
 Rigid3 SimulatedRoom::world_from_camera(int frame) const {
   require(frame >= 0 && frame < size(), "a frame of the sequence");
-  return path_.world_from_camera(static_cast<double>(frame) / size());
+  return path_.world_from_camera(frame * share_per_frame_);
 }
 
 Trajectory SimulatedRoom::truth() const {
@@ -119,7 +128,7 @@ SimulatedRgbdFrame SimulatedRoom::render(int frame) const {
   sensor.seed = options_.seed;
   sensor.frame = static_cast<std::uint64_t>(frame);
   sensor.deviation = options_.image_deviation;
-  const auto share = static_cast<float>(2 * std::numbers::pi * frame / size());
+  const auto share = static_cast<float>(2 * std::numbers::pi * frame * share_per_frame_);
   sensor.gain = (1 + 0.05F * std::sin(3 * share)) *
                 Color(1 + 0.02F * std::sin(2 * share), 1, 1 + 0.02F * std::cos(5 * share));
   DepthSensor depth_sensor;

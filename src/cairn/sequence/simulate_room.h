@@ -25,9 +25,9 @@ enum class RgbdNoise { kinect, none };
 
 struct SimulateRoomOptions {
   int frames_count = 300;
-  double rate_hz = 30;                      ///< frames a second
-  double speed = 0.4;                       ///< metres a second; slower where the room is too small for it
-  int loops = 0;                            ///< times around; 0: as many as the length needs
+  double rate_hz = 30;  ///< frames a second
+  double speed = 0.4;   ///< metres a second; slower where the room is too small for it
+  int loops = 0;        ///< times around; 0: as many as the length needs, a part of one below 8 seconds
   Camera camera = simulated_rgbd_camera();  ///< pinhole; depth is seen by the same camera
   double depth_scale = 5000;                ///< stored units per metre, as the TUM benchmark has it
   RgbdNoise noise = RgbdNoise::kinect;
@@ -45,6 +45,8 @@ struct SimulatedRgbdFrame {
 };
 
 /// A furnished room seen by an RGB-D camera on a closed walk, with exact truth, without touching a disk.
+/// Fewer frames than 8 seconds hold are a part of a walk, unless `loops` is given: then they are all of it,
+/// at a hurry.
 /// The same bytes from the same options, on any thread. z of the world is up, its origin a corner of the
 /// floor.
 class SimulatedRoom {
@@ -63,6 +65,7 @@ class SimulatedRoom {
 
  private:
   SimulateRoomOptions options_;
+  double share_per_frame_;  // of the closed walk
   RoomPath path_;
   Scene scene_;
 };

@@ -51,8 +51,21 @@ TEST(simulated_room, ends_where_it_began) {
   EXPECT_NEAR(motion_norm(closing), motion_norm(step), 0.2 * motion_norm(step));
 }
 
-/// Share of the points seen in frame `from` that frame `to` sees at the depth that the truth predicts, among
-/// those that fall into its image and are not hidden there.
+TEST(simulated_room, few_frames_make_a_part_of_a_walk_unless_loops_are_given) {
+  const auto turn_per_frame = [](int loops) {
+    SimulateRoomOptions options = small_room(RgbdNoise::none);
+    options.frames_count = 24;
+    options.loops = loops;
+    const Trajectory truth = SimulatedRoom(options).truth();
+    const Rigid3 step = truth[0].world_from_camera.inverse() * truth[1].world_from_camera;
+    return rotation_angle(step.rotation);
+  };
+  EXPECT_LT(turn_per_frame(0), 0.05);
+  EXPECT_GT(turn_per_frame(1), 0.15);
+}
+
+/// How well frame `to` sees the points of frame `from` where the truth predicts them, among those that fall
+/// into its image and are not hidden there.
 struct Agreement {
   double worst_depth_error = 0;  ///< metres
   double color_error = 0;        ///< mean, grey levels of the green channel
