@@ -27,11 +27,9 @@ void declare(CLI::App& app, CloudArguments& arguments) {
                  "world_from_camera in TUM format (default: the sequence's own truth)")
       ->type_name("FILE");
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--max-depth", arguments.options.max_depth, "metres; deeper readings are too noisy")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--draw", arguments.picture, "a picture of the cloud, obliquely from above")

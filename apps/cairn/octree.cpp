@@ -32,12 +32,10 @@ void declare(CLI::App& app, OctreeArguments& arguments) {
                  "world_from_camera in TUM format (default: the sequence's own truth)")
       ->type_name("FILE");
   app.add_option("--resolution", arguments.options.resolution, "metres; size of the smallest cubes")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--max-range", arguments.options.max_range,
                  "metres from the camera; farther points only free the way up to there")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   add_sequence_options(app, arguments.sequence);
