@@ -27,11 +27,9 @@ void declare(CLI::App& app, CloudArguments& arguments) {
                  "world_from_camera in TUM format (default: the sequence's own truth)")
       ->type_name("FILE");
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--max-depth", arguments.options.max_depth, "metres; deeper readings are too noisy")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--draw", arguments.picture, "a picture of the cloud, obliquely from above")
@@ -61,14 +59,15 @@ void print_text(const CloudArguments& arguments, const Result& result) {
 
 void print_json(const CloudArguments& arguments, const Result& result) {
   const auto corner = [](const Eigen::Vector3f& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
-  const nlohmann::ordered_json json = {{"output", arguments.output},
-                                       {"frames", to_json(result.fusion)},
-                                       {"points", result.points},
-                                       {"voxel_m", arguments.options.voxel_size},
-                                       {"box_low_m", corner(result.bounds.low)},
-                                       {"box_high_m", corner(result.bounds.high)},
-                                       {"bytes", result.bytes},
-                                       {"seconds", result.seconds}};
+  nlohmann::ordered_json json = {{"output", arguments.output},
+                                 {"frames", to_json(result.fusion)},
+                                 {"points", result.points},
+                                 {"voxel_m", arguments.options.voxel_size},
+                                 {"box_low_m", corner(result.bounds.low)},
+                                 {"box_high_m", corner(result.bounds.high)},
+                                 {"bytes", result.bytes},
+                                 {"seconds", result.seconds}};
+  if (!arguments.picture.empty()) json["picture"] = arguments.picture;
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -110,6 +109,8 @@ int run_cloud(int argc, char** argv) {
   arguments.options.validate();
   require_cloud_file(arguments.output);
   const AtomicFile probe(arguments.output);  // a path that cannot be written is known before the work
+  std::optional<AtomicFile> picture_probe;
+  if (!arguments.picture.empty()) picture_probe.emplace(arguments.picture);
 
   const Result result = build_cloud(arguments);
   arguments.common.json ? print_json(arguments, result) : print_text(arguments, result);

@@ -32,12 +32,10 @@ void declare(CLI::App& app, OctreeArguments& arguments) {
                  "world_from_camera in TUM format (default: the sequence's own truth)")
       ->type_name("FILE");
   app.add_option("--resolution", arguments.options.resolution, "metres; size of the smallest cubes")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   app.add_option("--max-range", arguments.options.max_range,
                  "metres from the camera; farther points only free the way up to there")
-      ->check(CLI::PositiveNumber)
       ->type_name("M")
       ->capture_default_str();
   add_sequence_options(app, arguments.sequence);
@@ -56,18 +54,6 @@ struct Result {
   double seconds = 0;
 };
 
-const char* describe(OctreeContents contents) {
-  switch (contents) {
-    case OctreeContents::binary:
-      return "occupied and free";
-    case OctreeContents::color:
-      return "probabilities and colours";
-    case OctreeContents::plain:
-      break;
-  }
-  return "probabilities";
-}
-
 void print_text(const OctreeArguments& arguments, const Result& result) {
   if (result.fusion) {
     print_report(*result.fusion);
@@ -77,7 +63,7 @@ void print_text(const OctreeArguments& arguments, const Result& result) {
   fmt::print("voxels       {} occupied, {} free, of {} m\n", result.counts.occupied, result.counts.free,
              arguments.options.resolution);
   fmt::print("file         {}, {}, {} nodes: {}\n", arguments.output, format_bytes(result.file.bytes),
-             result.file.nodes, describe(result.contents));
+             result.file.nodes, to_string(result.contents));
   fmt::print("seconds      {:.2f}\n", result.seconds);
 }
 
@@ -92,7 +78,7 @@ void print_json(const OctreeArguments& arguments, const Result& result) {
   json["occupied"] = result.counts.occupied;
   json["free"] = result.counts.free;
   json["nodes"] = result.file.nodes;
-  json["contents"] = describe(result.contents);
+  json["contents"] = to_string(result.contents);
   json["bytes"] = result.file.bytes;
   json["seconds"] = result.seconds;
   fmt::print("{}\n", json.dump(2));

@@ -115,10 +115,11 @@ TEST(CloudBuilder, PixelsAtAnEdgeInDepthAreLeftOut) {
   const DepthImage kept = without_depth_edges(depth, 0.05);
   for (int u = 0; u < 64; ++u) EXPECT_EQ(kept(u, 20), u >= 30 && u < 34 ? 0.0F : depth(u, 20)) << u;
   EXPECT_EQ(without_depth_edges(depth, 1.5), depth);
-  DepthImage rows(4, 9, 2.0F);
-  for (int u = 0; u < 4; ++u) rows(u, 8) = 4.0F;
+  DepthImage rows(4, 12, 2.0F);
+  for (int v = 6; v < 12; ++v)
+    for (int u = 0; u < 4; ++u) rows(u, v) = 4.0F;
   const DepthImage kept_rows = without_depth_edges(rows, 0.05);
-  for (int v = 0; v < 9; ++v) EXPECT_EQ(kept_rows(1, v), v == 6 || v == 8 ? 0.0F : 2.0F) << v;
+  for (int v = 0; v < 12; ++v) EXPECT_EQ(kept_rows(1, v), v >= 4 && v < 8 ? 0.0F : rows(1, v)) << v;
 }
 
 TEST(CloudBuilder, BoundsHoldAllPoints) {

@@ -97,6 +97,18 @@ OctreeFileReport write_tree(const std::filesystem::path& path, const OccupancyGr
 
 }  // namespace
 
+std::string_view to_string(OctreeContents contents) {
+  switch (contents) {
+    case OctreeContents::binary:
+      return "occupied and free";
+    case OctreeContents::color:
+      return "probabilities and colours";
+    case OctreeContents::plain:
+      break;
+  }
+  return "probabilities";
+}
+
 OctreeContents octree_contents(const std::filesystem::path& path, bool colored) {
   if (path.extension() == ".bt") return OctreeContents::binary;
   if (path.extension() == ".ot") return colored ? OctreeContents::color : OctreeContents::plain;

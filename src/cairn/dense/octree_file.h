@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "cairn/dense/occupancy.h"
 
@@ -14,6 +15,9 @@ enum class OctreeContents {
   plain,   ///< .ot: log odds (octomap::OcTree)
   color    ///< .ot: log odds and colour (octomap::ColorOcTree)
 };
+
+/// For people: "occupied and free", "probabilities", "probabilities and colours".
+[[nodiscard]] std::string_view to_string(OctreeContents contents);
 
 /// By the extension: .bt is binary; .ot is coloured where the map is, else plain. InputError for another
 /// extension.
