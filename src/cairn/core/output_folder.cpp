@@ -18,8 +18,9 @@ constexpr std::string_view kMarker = ".cairn";  // its first word is the kind of
 
 fs::path absolute_without_link(const fs::path& target) {
   std::error_code error;
-  fs::path path = fs::weakly_canonical(target, error);
-  if (error) path = fs::absolute(target).lexically_normal();
+  const fs::path absolute = fs::absolute(target).lexically_normal();
+  fs::path path = fs::weakly_canonical(absolute, error);
+  if (error) path = absolute;
   return path.has_filename() ? path : path.parent_path();
 }
 
