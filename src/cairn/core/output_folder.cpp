@@ -64,7 +64,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& target, std::string_view kind)
-    : target_(absolute_without_link(target)) {
+    : given_(target), target_(absolute_without_link(target)) {
   require_ours(target, kind);
   std::error_code error;
   in_place_ = fs::exists(target_, error) && !can_be_renamed(target_);
