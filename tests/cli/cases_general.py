@@ -16,7 +16,7 @@ CASES = [
     Case("missing output", "simulate room", ("--output is required",)),
     Case("threads that are no number", "simulate room -o out --threads many", ("--threads", "many")),
     Case("no threads", "simulate room -o out --threads 0", ("--threads",)),
-    Case("unknown scene", "simulate castle -o out", ("castle",)),
+    Case("unknown scene", "simulate castle -o out", ("expected one of room", "found 'castle'")),
     Case("output is a file", "simulate room -o out",
          ("out: expected a folder to write to, found a file of that name.", "Choose another -o"), (file("out", "x"),)),
     Case("output is a foreign folder", "simulate room -o out",
