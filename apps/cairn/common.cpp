@@ -134,6 +134,19 @@ void add_sequence_options(CLI::App& app, SequenceArguments& arguments) {
   app.add_option("--without", arguments.without, "all but these frames")->type_name("A:B[:S]");
 }
 
+namespace {
+
+/// What CLI11 says; where one of several subcommands is wanted, which.
+std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (app.get_require_subcommand_min() == 0 || !app.get_subcommands().empty()) return error.what();
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return fmt::format("expected one of {}, found {}", fmt::join(names, ", "),
+                     argc > 1 ? fmt::format("'{}'", argv[1]) : "nothing");
+}
+
+}  // namespace
+
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
@@ -141,7 +154,7 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "cairn {}: {}\n  'cairn {} --help' shows the options and an example.\n",
-               app.get_name(), error.what(), app.get_name());
+               app.get_name(), complaint(app, error, argc, argv), app.get_name());
     return 2;
   }
   return std::nullopt;

@@ -62,14 +62,16 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& work() const { return work_; }
-  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+  /// As it was given.
+  [[nodiscard]] const std::filesystem::path& target() const { return given_; }
   void commit();
 
  private:
   void replace_target();
   void fill_target();
 
-  std::filesystem::path target_;
+  std::filesystem::path given_;
+  std::filesystem::path target_;  // absolute, without links
   std::filesystem::path work_;
   std::vector<std::filesystem::path> made_parents_;  // innermost first
   bool in_place_ = false;

@@ -18,8 +18,9 @@ constexpr std::string_view kMarker = ".cairn";  // its first word is the kind of
 
 fs::path absolute_without_link(const fs::path& target) {
   std::error_code error;
-  fs::path path = fs::weakly_canonical(target, error);
-  if (error) path = fs::absolute(target).lexically_normal();
+  const fs::path absolute = fs::absolute(target).lexically_normal();
+  fs::path path = fs::weakly_canonical(absolute, error);
+  if (error) path = absolute;
   return path.has_filename() ? path : path.parent_path();
 }
 
@@ -63,7 +64,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& target, std::string_view kind)
-    : target_(absolute_without_link(target)) {
+    : given_(target), target_(absolute_without_link(target)) {
   require_ours(target, kind);
   std::error_code error;
   in_place_ = fs::exists(target_, error) && !can_be_renamed(target_);

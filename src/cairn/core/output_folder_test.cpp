@@ -123,6 +123,16 @@ TEST_F(OutputFolderTest, follows_a_link) {
   EXPECT_EQ(names(folder_ / "disk"), (Names{".cairn", "a"}));
 }
 
+TEST_F(OutputFolderTest, takes_a_relative_path) {
+  const fs::path before = fs::current_path();
+  fs::current_path(folder_);
+  make("run", "a");
+  make("new/run", "a");
+  fs::current_path(before);
+  EXPECT_EQ(names(folder_), (Names{"new", "run"}));
+  EXPECT_EQ(names(target_), (Names{".cairn", "a"}));
+}
+
 TEST_F(OutputFolderTest, fills_the_current_folder_in_place) {
   fs::create_directory(target_);
   const fs::path before = fs::current_path();

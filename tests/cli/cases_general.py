@@ -1,0 +1,37 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What holds for the program as a whole: help, usage, and where results may go."""
+
+from harness import Case, main
+from inputs import file, folder
+
+FOREIGN = (file("out/thesis.tex", "years of work"),)
+
+CASES = [
+    Case("help", "--help", code=0, prints=("usage: cairn COMMAND", "exit codes: 0 done")),
+    Case("version", "--version", code=0, prints=("cairn 0.",)),
+    Case("unknown command", "simulat", ("'simulat' is no command", "Did you mean 'simulate'?")),
+    Case("unknown option", "info --frobnicate seq", ("cairn info:", "--frobnicate", "cairn info --help")),
+    Case("missing argument", "info", ("SEQ is required", "cairn info --help")),
+    Case("missing output", "simulate room", ("--output is required",)),
+    Case("threads that are no number", "simulate room -o out --threads many", ("--threads", "many")),
+    Case("no threads", "simulate room -o out --threads 0", ("--threads",)),
+    Case("unknown scene", "simulate castle -o out", ("expected one of room", "found 'castle'")),
+    Case("output is a file", "simulate room -o out",
+         ("out: expected a folder to write to, found a file of that name.", "Choose another -o"), (file("out", "x"),)),
+    Case("output is a foreign folder", "simulate room -o out",
+         ("out: expected a new or empty folder, or a", "found a folder with other contents", "nothing in it was touched"),
+         FOREIGN),
+    Case("output below a file", "simulate room -o out/deep/room", ("out/deep/room: expected to create the folder",),
+         (file("out", "x"),)),
+    Case("output where nobody may write", "simulate room -o /proc/cairn/room",
+         ("/proc/cairn/room: expected to create the folder",)),
+    Case("full disk", "simulate room -o out --frames-count 3 --threads 1", ("File too large", "Check the path and the disk."),
+         file_limit=4096),
+    Case("full disk keeps the earlier result", "simulate room -o out --frames-count 3 --threads 2", ("File too large",),
+         (folder("out"), file("out/.cairn", "sequence: written by cairn\n"), file("out/rgb.txt", "old\n")),
+         file_limit=4096),
+]
+
+if __name__ == "__main__":
+    main(CASES)
