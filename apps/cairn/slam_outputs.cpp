@@ -15,6 +15,7 @@
 #include "cairn/evaluate/evaluation.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/g2o_file.h"
+#include "cairn/map/keyframe_map_file.h"
 #include "fusion.h"
 
 namespace cairn::app {
@@ -87,6 +88,7 @@ void write_slam_files(const std::filesystem::path& folder, const RgbdSlamResult&
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
+  write_keyframe_map(folder / "map", result.map);
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "cairn/core/id.h"
@@ -29,6 +30,7 @@ struct Keyframe {
 /// Keyframes of one run, data only. The world is the first keyframe's camera frame.
 struct KeyframeMap {
   Rig rig;
+  std::string descriptor = "ORB";   ///< name of the descriptors' kind, as in FeatureOptions
   std::vector<Keyframe> keyframes;  ///< keyframe k has id k
 };
 

@@ -6,8 +6,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kRotationFloor = 0.002;     // radians: 1 px at 525 px focal length
-constexpr double kTranslationFloor = 0.004;  // metres: the Kinect's systematic depth error at 2 m
+// With these the loop edges of a real Kinect recording cost about as much as they have degrees of freedom.
+constexpr double kRotationFloor = 0.004;     // radians: 2 px at 525 px focal length
+constexpr double kTranslationFloor = 0.010;  // metres: the Kinect's systematic depth error at 2 to 3 m
 
 Matrix6d inverse(const Matrix6d& symmetric) {
   return symmetric.ldlt().solve(Matrix6d::Identity());

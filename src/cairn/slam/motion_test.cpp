@@ -136,7 +136,7 @@ TEST(MakeEdge, carries_the_information_over) {
   Vector6d e;
   e << error.translation, error.rotation.vec();
   Vector6d floor;
-  floor << Eigen::Vector3d::Constant(0.002), Eigen::Vector3d::Constant(0.004);
+  floor << Eigen::Vector3d::Constant(0.004), Eigen::Vector3d::Constant(0.010);
   Matrix6d covariance = motion.information.inverse();
   covariance.diagonal() += floor.cwiseAbs2();
   const double expected = xi.dot(covariance.inverse() * xi);

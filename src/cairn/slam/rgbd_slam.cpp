@@ -112,6 +112,7 @@ RgbdSlamResult run_rgbd_slam(const Sequence& sequence, const RgbdSlamOptions& op
   options.validate();
   RgbdSlamResult result;
   result.map.rig = rgbd_rig(sequence.calibration.camera, options.depth_noise);
+  result.map.descriptor = options.features.descriptor;
   std::vector<PoseGraph::Edge> edges;
   Tracker tracker(options, executor, result.map, edges);
   const Frontend frontend(sequence, options);
