@@ -176,5 +176,42 @@ class Tidy(Sample):
                 self.assertIn(message, output)
 
 
+class CommandLineTables(Sample):
+    """The harness of tests/cli against programs that behave badly."""
+
+    GOOD = "echo 'cairn: a.txt:3: expected 8 values, found 7.' >&2; exit 2"
+    BAD = {
+        "wrong exit code": "echo 'cairn: a.txt:3: expected 8 values, found 7.' >&2; exit 1",
+        "another message": "echo 'cairn: something is wrong.' >&2; exit 2",
+        "two messages": f"echo 'cairn: oh' >&2; {GOOD}",
+        "noise on stdout": f"echo oh; {GOOD}",
+        "a file left behind": f"echo half >out.txt; {GOOD}",
+        "a file changed": f"echo more >>a.txt; {GOOD}",
+        "a file removed": f"rm a.txt; {GOOD}",
+        "a crash": "kill -SEGV $$",
+    }
+
+    def verdict(self, script):
+        self.write("program", f"#!/bin/bash\n{script}\n")
+        (self.root / "program").chmod(0o755)
+        sys.path.insert(0, str(TESTS / "cli"))
+        import harness
+        import inputs
+        harness.CommandLine.program = str(self.root / "program")
+        case = harness.Case("row", "evaluate a.txt", ("a.txt:3:",), (inputs.file("a.txt", "1 2 3\n"),))
+        result = unittest.TestResult()
+        harness.CommandLine.row = lambda self: self.check(case)
+        harness.CommandLine("row").run(result)
+        return result.wasSuccessful()
+
+    def test_accepts_one_message_that_names_the_place(self):
+        self.assertTrue(self.verdict(self.GOOD))
+
+    def test_refuses_each_bad_program(self):
+        for name, script in self.BAD.items():
+            with self.subTest(name):
+                self.assertFalse(self.verdict(script))
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -68,7 +68,8 @@ def tum_sequence(name="seq", frames=3):
 
 
 def trajectory_text(stamps):
-    return "".join(f"{t} {0.01 * i} 0 0 0 0 0 1\n" for i, t in enumerate(stamps))
+    """On a bend, so that it can be aligned."""
+    return "".join(f"{t} {0.01 * i:.4f} {0.001 * i * i:.4f} 0 0 0 0 1\n" for i, t in enumerate(stamps))
 
 
 def trajectory(name="poses.txt", count=3):

@@ -1,0 +1,98 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Bad sequences and calibrations: each ends in one message that names the place and the way out."""
+
+from harness import Case, main
+from inputs import CAMERA, file, folder, png_bytes, replaced, tum_sequence, without
+
+SEQ = tum_sequence()
+
+
+def rgb(old, new):
+    return replaced("seq/rgb.txt", old, new)
+
+
+def camera(old, new):
+    return replaced("seq/camera.yaml", old, new)
+
+
+CASES = [
+    Case("a good sequence", "info seq", given=(SEQ,), code=0, prints=("TUM", "frames       3")),
+    Case("frames as slices", "info seq --frames 0:2", given=(SEQ,), code=0, prints=("frames       2",)),
+    # what is named
+    Case("no such sequence", "info seq", ("seq: expected a folder with a sequence, found nothing of that name", "Check")),
+    Case("sequence is a file", "info seq", ("expected a folder with a sequence, found a file",), (file("seq", "x"),)),
+    Case("empty folder", "info seq", ("seq: expected a sequence", "found an empty folder"), (folder("seq"),)),
+    Case("folder of something else", "info seq", ("found none of these",), (file("seq/notes.txt", "x"),)),
+    Case("empty sequence", "info seq", ("seq: expected at least one frame, found 0 of 0",), (SEQ, file("seq/rgb.txt", "# nothing\n"))),
+    Case("frames that are no slice", "info seq --frames all", ("--frames: expected A:B", "found 'all'"), (SEQ,)),
+    Case("no frame left", "info seq --frames 7:9", ("expected at least one frame", "Widen --frames"), (SEQ,)),
+    # lists
+    Case("time goes backwards", "info seq", ("seq/rgb.txt:3: expected a time stamp after 1.100000000, found 0.500000000",),
+         (SEQ, rgb("1.200000", "0.5"))),
+    Case("stamp is no number", "info seq", ("seq/rgb.txt:2: expected a time stamp in seconds, found '1,1'",),
+         (SEQ, rgb("1.100000", "1,1"))),
+    Case("line without file name", "info seq", ("seq/rgb.txt:2: expected 2 values", "found 1"), (SEQ, rgb(" rgb/1.png", ""))),
+    Case("no depth near in time", "info seq", ("depth.txt: expected depth images within", "one clock"),
+         (SEQ, file("seq/depth.txt", "900.0 depth/0.png\n"))),
+    Case("trajectory line with 7 numbers", "info seq", ("seq/groundtruth.txt:2: expected 8 values (t tx ty tz qx qy qz qw), found 7",),
+         (SEQ, replaced("seq/groundtruth.txt", "0.0100 0.0010 0 0 0 0 1", "0.0100 0.0010 0 0 0 1"))),
+    Case("quaternion of length 0", "info seq", ("seq/groundtruth.txt:2: expected a quaternion of length 1", "order of the columns"),
+         (SEQ, replaced("seq/groundtruth.txt", "0.0100 0.0010 0 0 0 0 1", "0.0100 0.0010 0 0 0 0 0"))),
+    # calibration
+    Case("no calibration", "info seq", ("expected a calibration, found none", "camera.yaml"), (SEQ, without("seq/camera.yaml"))),
+    Case("unknown camera", "info seq --camera tum-fr9", ("tum-fr9",), (SEQ,)),
+    Case("empty calibration", "info seq", ("camera.yaml: expected a calibration, found an empty file",),
+         (SEQ, file("seq/camera.yaml", ""))),
+    Case("calibration is no YAML", "info seq", ("seq/camera.yaml:2: expected YAML",), (SEQ, file("seq/camera.yaml", "camera: {\n"))),
+    Case("fx is 0", "info seq", ("seq/camera.yaml:1: expected", "'fx'"), (SEQ, camera("fx: 50.0", "fx: 0"))),
+    Case("fx is missing", "info seq", ("seq/camera.yaml:1: expected 'fx' in 'camera'", "Add 'fx'"), (SEQ, camera("fx: 50.0, ", ""))),
+    Case("fx is a word", "info seq", ("seq/camera.yaml:1:", "'wide'"), (SEQ, camera("fx: 50.0", "fx: wide"))),
+    Case("unknown key", "info seq", ("seq/camera.yaml:2: expected a known key in 'depth', found 'scael'", "Did you mean 'scale'?"),
+         (SEQ, camera("scale", "scael"))),
+    Case("unknown model", "info seq", ("seq/camera.yaml:1:", "pinhole, radtan or kb4"), (SEQ, camera("pinhole", "fisheye"))),
+    Case("depth without scale", "info seq", ("seq/camera.yaml", "'depth: {scale: ...}'", "1000 where depth is in millimetres"),
+         (SEQ, file("seq/camera.yaml", CAMERA.splitlines()[0] + "\n"))),
+    Case("scale is 0", "info seq", ("seq/camera.yaml:2:", "'scale'"), (SEQ, camera("1000.0", "0"))),
+    # images, as slam and cloud read them
+    Case("image of the wrong size", "cloud seq -o a.ply",
+         ("seq/rgb/0.png: expected an image of 64x48 pixels, as the calibration says, found 32x24",),
+         (SEQ, *[file(f"seq/rgb/{i}.png", png_bytes(32, 24)) for i in range(3)]), messages=4),
+    Case("depth of the wrong type", "cloud seq -o a.ply", ("seq/depth/0.png: expected", "16"),
+         (SEQ, *[file(f"seq/depth/{i}.png", png_bytes(kind="gray8")) for i in range(3)]), messages=4),
+    Case("broken image in the middle", "cloud seq -o a.ply", ("frame 1 left out: seq/rgb/1.png: expected",),
+         (SEQ, file("seq/rgb/1.png", png_bytes()[:300])), code=0, leaves=("a.ply",)),
+    Case("broken depth in the middle", "cloud seq -o a.ply", ("frame 1 left out: seq/depth/1.png: expected",),
+         (SEQ, file("seq/depth/1.png", b"no image")), code=0, leaves=("a.ply",)),
+    Case("missing image in the middle", "cloud seq -o a.ply", ("frame 1 left out: seq/rgb/1.png: expected a readable file",),
+         (SEQ, without("seq/rgb/1.png")), code=0, leaves=("a.ply",)),
+    # poses
+    Case("no such poses", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected a readable file, found No such file",), (SEQ,)),
+    Case("poses with 7 numbers", "cloud seq --poses p.txt -o a.ply", ("p.txt:1: expected 8 values", "found 7"),
+         (SEQ, file("p.txt", "1 0 0 0 0 0 1\n"))),
+    Case("poses of another recording", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected poses within", "share its clock"),
+         (SEQ, file("p.txt", "900 0 0 0 0 0 0 1\n"))),
+    Case("empty poses", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected poses, one a line",), (SEQ, file("p.txt", "# none\n"))),
+    Case("sequence without poses", "cloud seq -o a.ply", ("Give --poses FILE",), (SEQ, without("seq/groundtruth.txt"))),
+    # outputs
+    Case("cloud of unknown kind", "cloud seq -o a.xyz", ("a.xyz", ".ply", ".pcd"), (SEQ,)),
+    Case("cloud into a missing folder", "cloud seq -o no/a.ply", ("no/a.ply: expected to create the file", "Make the folder first."), (SEQ,)),
+    Case("octree of unknown kind", "octree seq -o a.oct", ("a.oct", ".bt", ".ot"), (SEQ,)),
+    Case("octree of nothing", "octree no.ply -o a.bt", ("no.ply",)),
+    Case("full disk", "cloud seq --voxel 0.001 -o a.ply", ("a.ply: expected to", "File too large"), (SEQ,), file_limit=2048),
+    Case("cloud", "cloud seq -o a.ply --quiet", given=(SEQ,), code=0, leaves=("a.ply",)),
+    Case("octree", "octree seq -o a.bt --quiet", given=(SEQ,), code=0, leaves=("a.bt",)),
+    # slam
+    Case("slam into its own sequence", "slam seq -o seq", ("seq: expected a new or empty folder, or a run that cairn wrote",), (SEQ,)),
+    Case("slam into a simulated sequence", "slam seq -o seq", ("or a run that cairn wrote, found a sequence that cairn wrote",),
+         (SEQ, file("seq/.cairn", "sequence: written by cairn\n"))),
+    Case("slam unknown parameter", "slam seq -o run --set featurs=9", ("--set: ", "'featurs'", "'features'"), (SEQ,)),
+    Case("slam unknown parameter in a file", "slam seq -o run --config p.yaml", ("p.yaml:2: ", "'keyframe_treshold'", "'keyframe_threshold'"),
+         (SEQ, file("p.yaml", "features: 100\nkeyframe_treshold: 1\n"))),
+    Case("slam parameter out of range", "slam seq -o run --set features=-5", ("features", "-5"), (SEQ,)),
+    Case("slam parameter of the wrong type", "slam seq -o run --set features=many", ("features", "'many'"), (SEQ,)),
+    Case("slam without anything to see", "slam seq -o run --quiet", ("no frame could be tracked",), (SEQ,), code=1),
+]
+
+if __name__ == "__main__":
+    main(CASES)
