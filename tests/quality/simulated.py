@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From simulation to evaluation, as a user would go, against the exact truth. Arguments: the program."""
+
+import json
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import program
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+
+class Room(program.Quality):
+    def test_maps_a_simulated_room(self):
+        self.cairn("simulate", "room", "-o", "room", "--quiet")
+        run = self.figures("slam", "room", "-o", "run")
+        self.assertEqual(run["frames"]["tracked"], 300)
+        self.assertLessEqual(run["peak_memory_mb"], 1000)
+        evaluation = self.figures("evaluate", "run", "room")
+        self.assertEqual(evaluation["pairs"], 300)
+        self.assertLessEqual(evaluation["ate_rmse_m"], 0.015)
+        self.assertAlmostEqual(evaluation["ate_rmse_m"], run["ate_rmse_m"], places=9)
+        self.check_map_reader()
+
+    def check_map_reader(self):
+        """The reader that docs/map_format.md prints reads the map."""
+        code = re.search(r"```python\n(.*?)```", (DOCS / "map_format.md").read_text(), re.S).group(1)
+        self.assertLess(code.count("\n"), 40)
+        (self.folder / "reader.py").write_text(code)
+        done = subprocess.run([sys.executable, "reader.py", "run/map"], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        keyframes = json.loads((self.folder / "run/run.json").read_text())["keyframes"]
+        self.assertIn(f"{keyframes} keyframes", done.stdout)
+
+
+class Small(program.Quality):
+    """On a quarter of the pixels, where accuracy is not the question."""
+
+    def setUp(self):
+        super().setUp()
+        self.cairn("simulate", "room", "-o", "room", "--frames-count", "60", "--scale", "0.5", "--quiet")
+
+    def test_writes_the_same_bytes_at_any_number_of_threads(self):
+        for threads in (1, 2, 3):
+            self.cairn("slam", "room", "-o", f"run{threads}", "--threads", threads, "--quiet")
+        self.assert_same_files("run1", "run2", but=("run.json",))  # run.json holds times
+        self.assert_same_files("run1", "run3", but=("run.json",))
+
+    def test_a_run_can_be_repeated_from_its_configuration(self):
+        self.cairn("slam", "room", "-o", "run", "--set", "features=700", "--set", "nearby_loops=3", "--quiet")
+        self.cairn("slam", "room", "-o", "again", "--config", "run/config.yaml", "--quiet")
+        self.assert_same_files("run", "again", but=("run.json",))
+
+    def test_cloud_and_octree_from_a_trajectory(self):
+        self.cairn("slam", "room", "-o", "run", "--quiet")
+        self.cairn("cloud", "room", "--poses", "run/trajectory.txt", "-o", "room.ply", "--voxel", "0.02", "--quiet")
+        self.cairn("octree", "room.ply", "-o", "from_cloud.bt", "--quiet")
+        self.cairn("octree", "room", "--poses", "run/trajectory.txt", "-o", "room.ot", "--quiet")
+        self.assertTrue((self.folder / "room.ot").read_bytes().startswith(b"# Octomap OcTree file"))
+        self.assertIn(b"id ColorOcTree\n", (self.folder / "room.ot").read_bytes()[:300])
+        self.assertTrue((self.folder / "from_cloud.bt").read_bytes().startswith(b"# Octomap OcTree binary file"))
+
+    def test_an_interrupted_run_writes_what_was_done(self):
+        self.cairn("simulate", "room", "-o", "long", "--frames-count", "200", "--scale", "0.5", "--quiet")
+        process = subprocess.Popen([sys.argv[1], "slam", "long", "-o", "run", "--threads", "1", "--json"], cwd=self.folder,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(1.0)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=program.TIME_LIMIT_S)
+        self.assertEqual(process.returncode, 0, errors)
+        frames = json.loads(output)["frames"]
+        self.assertGreater(frames["processed"], 0)
+        self.assertLess(frames["processed"], 200, "the run was over before it was interrupted")
+        written = (self.folder / "run/trajectory.txt").read_text().splitlines()
+        self.assertEqual(len(written) - 1, frames["tracked"])
+        for name in ("cloud.ply", "octree.ot", "graph_after.g2o", "map/map.json"):
+            self.assertTrue((self.folder / "run" / name).is_file(), name)
+
+
+if __name__ == "__main__":
+    program.main()
