@@ -13,6 +13,7 @@ namespace cairn {
 namespace {
 
 constexpr float kOrbPatch = 31.0F;  // pixels, diameter at the lowest pyramid level
+constexpr int kFastThreshold = 7;   // grey levels: dim corners count, too, where there are no better ones
 constexpr int kSmallestSide = 32;   // pixels: no patch fits below, and OpenCV's pyramids throw
 constexpr double kOrbScale = 1.2;   // between pyramid levels
 
@@ -27,7 +28,7 @@ std::string upper(std::string text) {
 cv::Ptr<cv::Feature2D> make_opencv(const std::string& name, int count) {
   if (name == "ORB")
     return cv::ORB::create(count, static_cast<float>(kOrbScale), 8, static_cast<int>(kOrbPatch), 0, 2,
-                           cv::ORB::HARRIS_SCORE, static_cast<int>(kOrbPatch), 12);
+                           cv::ORB::HARRIS_SCORE, static_cast<int>(kOrbPatch), kFastThreshold);
   if (name == "SIFT") return cv::SIFT::create(count);
   if (name == "AKAZE") return cv::AKAZE::create();
   return cv::BRISK::create();
