@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/rgbd_slam.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <functional>
 
@@ -60,6 +62,13 @@ class Frontend {
   std::unique_ptr<Extractor> extractor_;
 };
 
+void require_depth(const Sequence& sequence) {
+  if (!sequence.frames.empty() && !sequence.frames.front().depth.empty()) return;
+  throw InputError({sequence.folder.string(), 0, "an RGB-D sequence",
+                    fmt::format("a {} sequence without depth images", sequence.format),
+                    "Without depth there is no scale; record with an RGB-D camera."});
+}
+
 PoseGraph graph_of(const KeyframeMap& map, std::vector<PoseGraph::Edge>&& edges) {
   PoseGraph graph;
   for (const Keyframe& keyframe : map.keyframes)
@@ -110,6 +119,7 @@ Trajectory RgbdSlamResult::keyframe_trajectory() const {
 RgbdSlamResult run_rgbd_slam(const Sequence& sequence, const RgbdSlamOptions& options,
                              const Executor& executor, Progress& progress) {
   options.validate();
+  require_depth(sequence);
   RgbdSlamResult result;
   result.map.rig = rgbd_rig(sequence.calibration.camera, options.depth_noise);
   result.map.descriptor = options.features.descriptor;

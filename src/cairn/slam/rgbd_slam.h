@@ -38,7 +38,8 @@ struct RgbdSlamResult {
 };
 
 /// RGB-D SLAM without given poses: observe, track, decide, close loops, optimise. A frame that cannot be
-/// decoded is reported and skipped. The same bits at any number of threads.
+/// decoded is reported and skipped. The same bits at any number of threads. InputError for a sequence without
+/// depth and for options out of range.
 [[nodiscard]] RgbdSlamResult run_rgbd_slam(const Sequence& sequence, const RgbdSlamOptions& options,
                                            const Executor& executor, Progress& progress);
 
