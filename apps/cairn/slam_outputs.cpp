@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cairn/core/file.h"
+#include "cairn/core/text.h"
 #include "cairn/dense/cloud_file.h"
 #include "cairn/dense/fuse_sequence.h"
 #include "cairn/dense/octree_file.h"
@@ -74,6 +75,18 @@ CameraPath path_of(const RgbdSlamResult& result) {
   return path;
 }
 
+/// One row per frame: what became of it.
+std::string format_frames_csv(const RgbdSlamResult& result) {
+  std::string text = "frame,stamp_s,outcome,relocalized,reference_keyframe,matches,inliers\n";
+  for (const FrameTrack& track : result.frames) {
+    text += fmt::format("{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
+                        to_string(track.decision), track.relocalized ? 1 : 0,
+                        track.reference ? fmt::format("{}", track.reference->value) : "", track.matches,
+                        track.inliers);
+  }
+  return text;
+}
+
 void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, const RgbdSlamResult& result,
                        double voxel_size) {
   write_cloud(folder / "cloud.ply", cloud);
@@ -88,6 +101,7 @@ void write_slam_files(const std::filesystem::path& folder, const RgbdSlamResult&
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
+  write_file(folder / "frames.csv", format_frames_csv(result));
   write_keyframe_map(folder / "map", result.map);
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());

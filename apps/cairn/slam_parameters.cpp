@@ -26,6 +26,7 @@ void bind_slam(RgbdSlamOptions& slam, SettingTable& table) {
   table.bind("good_match_threshold", slam.good_match_threshold);
   table.bind("min_good_match", slam.min_good_match);
   table.bind("min_inliers", slam.min_inliers);
+  table.bind("min_inlier_share", slam.min_inlier_share);
   table.bind("max_norm", slam.max_norm);
   table.bind("max_norm_lp", slam.max_norm_lp);
   table.bind("keyframe_threshold", slam.keyframe_threshold);

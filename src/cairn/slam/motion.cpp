@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/motion.h"
 
+#include <Eigen/Cholesky>
+
 #include "cairn/features/matching.h"
 #include "cairn/geometry/pnp_ransac.h"
 #include "cairn/optimize/pose_only.h"
@@ -35,6 +37,16 @@ std::uint64_t seed_of(const RgbdSlamOptions& options, const ObservedFrame& refer
   return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
 }
 
+/// False where the inliers leave a direction open: all on a line, or all far away.
+bool is_determined(const Matrix6d& information) {
+  constexpr double kMaxRotationStd = 0.02;     // radians
+  constexpr double kMaxTranslationStd = 0.05;  // metres
+  const Vector6d variances = information.ldlt().solve(Matrix6d::Identity()).diagonal();
+  const bool rotation = variances.head<3>().maxCoeff() < kMaxRotationStd * kMaxRotationStd;
+  const bool translation = variances.tail<3>().maxCoeff() < kMaxTranslationStd * kMaxTranslationStd;
+  return rotation && translation && variances.minCoeff() > 0;
+}
+
 KeyframeDecision decide_by_norm(const Motion& motion, double keyframe_threshold, double max_norm) {
   if (!motion.found) return KeyframeDecision::not_matched;
   if (motion.norm >= max_norm) return KeyframeDecision::too_far;
@@ -59,7 +71,9 @@ Motion estimate_motion(const Rig& rig, const ObservedFrame& reference, const Obs
   const PoseOnlyResult refined =
       refine_pose(rig, pairs.points_in_reference, pairs.seen_in_current, rough.camera_from_world);
   motion.inliers = static_cast<int>(refined.inliers.size());
-  motion.found = refined.solved && motion.inliers >= options.min_inliers;
+  const bool enough =
+      motion.inliers >= options.min_inliers && motion.inliers >= options.min_inlier_share * motion.matches;
+  motion.found = refined.solved && enough && is_determined(refined.information);
   motion.current_from_reference = refined.camera_from_world;
   motion.information = refined.information;
   motion.norm = motion_norm(motion.current_from_reference);

@@ -10,7 +10,7 @@ namespace cairn {
 
 /// The motion between two frames, as far as their features tell.
 struct Motion {
-  bool found = false;  ///< false: fewer than min_good_match matches or min_inliers inliers
+  bool found = false;  ///< false: too few matches or inliers, or a pose that they do not determine
   Rigid3 current_from_reference;
   Matrix6d information = Matrix6d::Zero();  ///< of the left perturbation (rotation, translation)
   int matches = 0;

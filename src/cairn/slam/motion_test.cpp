@@ -79,6 +79,24 @@ TEST(EstimateMotion, finds_none_with_few_matches_or_without_depth) {
   EXPECT_EQ(motion.matches, 0);
 }
 
+/// Inliers enough, all far away in one corner of the image: translation is open.
+TEST(EstimateMotion, finds_none_that_the_points_do_not_determine) {
+  Views views = make_views(Rigid3{}, 60, 7);
+  Random random(8);
+  for (std::size_t i = 0; i < 60; ++i) {
+    const Eigen::Vector3d point =
+        kRig.point_at(300 + random.uniform(0, 15), 200 + random.uniform(0, 15), random.uniform(7.5, 8));
+    for (ObservedFrame* frame : {&views.reference, &views.current}) {
+      const Eigen::Vector3d seen = kRig.project(point);
+      frame->observations[i] = {seen.x() + random.normal(), seen.y() + random.normal()};
+      frame->points_in_camera[i] = point;
+    }
+  }
+  const Motion motion = estimate_motion(kRig, views.reference, views.current, {});
+  EXPECT_GE(motion.inliers, 40);
+  EXPECT_FALSE(motion.found);
+}
+
 TEST(EstimateMotion, finds_none_between_unrelated_frames) {
   const Views a = make_views(small_motion(), 300, 4), b = make_views(small_motion(), 300, 5);
   const Motion motion = estimate_motion(kRig, a.reference, b.current, {});

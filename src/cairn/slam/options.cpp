@@ -29,9 +29,11 @@ void RgbdSlamOptions::validate() const {
   check(good_match_threshold >= 1, "good_match_threshold", "a factor of at least 1", good_match_threshold);
   check(min_good_match >= 4, "min_good_match", "at least 4 matches", min_good_match);
   check(min_inliers >= 4, "min_inliers", "at least 4 inliers", min_inliers);
+  const auto is_share = [](double value) { return value >= 0 && value <= 1; };
+  check(is_share(min_inlier_share), "min_inlier_share", "a share from 0 to 1", min_inlier_share);
   check(loop_min_inliers >= 4, "loop_min_inliers", "at least 4 inliers", loop_min_inliers);
-  check(loop_min_inlier_share >= 0 && loop_min_inlier_share <= 1, "loop_min_inlier_share",
-        "a share from 0 to 1", loop_min_inlier_share);
+  check(is_share(loop_min_inlier_share), "loop_min_inlier_share", "a share from 0 to 1",
+        loop_min_inlier_share);
   check(positive(max_norm), "max_norm", "rad + m above 0", max_norm);
   check(positive(max_norm_lp), "max_norm_lp", "rad + m above 0", max_norm_lp);
   check(keyframe_threshold >= 0 && keyframe_threshold < max_norm, "keyframe_threshold",
