@@ -3,20 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 namespace cairn::app {
-namespace {
-
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
-
 PosedSequence open_posed_sequence(const SequenceArguments& arguments, const std::string& poses) {
   PosedSequence posed{open_sequence(arguments.folder, arguments.options()), {}};
   posed.world_from_camera = poses_of_frames(posed.sequence, poses);
@@ -38,12 +27,6 @@ nlohmann::ordered_json to_json(const FusionReport& report) {
           {"without_depth", report.without_depth},
           {"unreadable", report.unreadable},
           {"stopped", report.stopped}};
-}
-
-Stopwatch::Stopwatch() : begun_ns_(now_ns()) {}
-
-double Stopwatch::seconds() const {
-  return 1e-9 * static_cast<double>(now_ns() - begun_ns_);
 }
 
 std::string format_bytes(std::int64_t bytes) {

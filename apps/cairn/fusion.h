@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "cairn/core/stopwatch.h"
 #include "cairn/dense/fuse_sequence.h"
 #include "common.h"
 
@@ -20,16 +21,6 @@ struct PosedSequence {
 
 void print_report(const FusionReport& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const FusionReport& report);
-
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  Stopwatch();
-  [[nodiscard]] double seconds() const;
-
- private:
-  std::int64_t begun_ns_;
-};
 
 /// "1.5 MB"
 [[nodiscard]] std::string format_bytes(std::int64_t bytes);

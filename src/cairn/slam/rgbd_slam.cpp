@@ -3,28 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <functional>
 
 #include "cairn/core/error.h"
+#include "cairn/core/stopwatch.h"
 #include "cairn/slam/observe.h"
 
 namespace cairn {
 namespace {
-
-class Stopwatch {
- public:
-  /// Seconds since construction or the last lap.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// A frame on its way from the disk to the tracker.
 struct Arrival {
