@@ -21,7 +21,7 @@ rate_hz: 15
 )";
 constexpr const char* kCamera = "camera: {width: 8, height: 6, fx: 10, fy: 10, cx: 4, cy: 3}\n";
 
-class CalibrationTest : public TemporaryFolderTest {
+class CalibrationTest : public testing::Test, protected TestFolder {
  protected:
   [[nodiscard]] Calibration read(const std::string& text) const {
     return read_calibration(write("camera.yaml", text));

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FrameLoaderTest : public TemporaryFolderTest {
+class FrameLoaderTest : public testing::Test, protected TestFolder {
  protected:
   FrameLoaderTest() {
     put("camera.yaml", kSmallCamera);

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class NumberedTest : public TemporaryFolderTest {
+class NumberedTest : public testing::Test, protected TestFolder {
  protected:
   NumberedTest() {
     put("camera.yaml", kSmallCamera);

@@ -6,7 +6,7 @@
 namespace cairn {
 namespace {
 
-class PosesOfFramesTest : public TemporaryFolderTest {
+class PosesOfFramesTest : public testing::Test, protected TestFolder {
  protected:
   /// Frames `numbers` at `rate_hz`; TUM sequences number them by position.
   static Sequence sequence_of(const char* format, const std::vector<std::int64_t>& numbers, double rate_hz) {

@@ -19,7 +19,7 @@ constexpr const char* kCalibrationRemedy =
     "--camera tum-fr1.";
 
 /// Ten numbered frames 100, 110, ... 190.
-class SequenceTest : public TemporaryFolderTest {
+class SequenceTest : public testing::Test, protected TestFolder {
  protected:
   SequenceTest() {
     put("camera.yaml", kSmallCamera);

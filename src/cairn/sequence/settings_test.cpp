@@ -30,7 +30,7 @@ struct Fields {
   }
 };
 
-class SettingsTest : public TemporaryFolderTest {
+class SettingsTest : public testing::Test, protected TestFolder {
  protected:
   [[nodiscard]] Fields read(const std::string& text) const {
     Fields fields;

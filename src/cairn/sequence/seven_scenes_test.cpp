@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 /// A quarter turn about z, then a shift.
 constexpr const char* kPose = "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n";
 
-class SevenScenesTest : public TemporaryFolderTest {
+class SevenScenesTest : public testing::Test, protected TestFolder {
  protected:
   SevenScenesTest() {
     put("camera.yaml", kSmallCamera);

@@ -2,7 +2,6 @@
 // What the tests of the readers share: a folder that goes away, small recordings, the message of an error.
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -16,10 +15,17 @@
 
 namespace cairn {
 
-class TemporaryFolderTest : public testing::Test {
+/// A folder for one test's files. A base of fixtures, beside testing::Test.
+class TestFolder {
  protected:
-  TemporaryFolderTest() { make_empty(); }
-  ~TemporaryFolderTest() override { std::filesystem::remove_all(folder_); }
+  TestFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "cairn_test_XXXXXX").string();
+    require(::mkdtemp(name.data()) != nullptr, "the temporary folder can be written");
+    folder_ = name;
+  }
+  ~TestFolder() { std::filesystem::remove_all(folder_); }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
 
   void make_empty() const {
     std::filesystem::remove_all(folder_);
@@ -40,10 +46,7 @@ class TemporaryFolderTest : public testing::Test {
     write_png(folder_ / name, RawDepthImage(8, 6, raw));
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("cairn_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()) +
-       "_" + std::to_string(::getpid()));
+  std::filesystem::path folder_;
 };
 
 /// camera.yaml for images of put_color and put_depth.

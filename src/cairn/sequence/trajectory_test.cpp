@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-class TrajectoryTest : public TemporaryFolderTest {};
+class TrajectoryTest : public testing::Test, protected TestFolder {};
 
 TEST_F(TrajectoryTest, reads_stamps_translations_and_quaternions) {
   const Trajectory read = read_tum_trajectory(

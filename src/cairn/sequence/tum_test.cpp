@@ -8,7 +8,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class TumTest : public TemporaryFolderTest {
+class TumTest : public testing::Test, protected TestFolder {
  protected:
   TumTest() { make_good(); }
 
