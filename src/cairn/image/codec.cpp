@@ -21,11 +21,14 @@ namespace {
 namespace fs = std::filesystem;
 using std::string_view_literals::operator""sv;
 
-constexpr int kMaxSide = 32768;
-
 [[noreturn]] void fail(const fs::path& path, std::string expected, std::string found) {
   throw InputError({path.string(), 0, std::move(expected), std::move(found),
                     "Record or convert the image again, or leave the frame out."});
+}
+
+void expect_sane_size(const fs::path& path, std::int64_t width, std::int64_t height) {
+  if (!is_image_size(width, height))
+    fail(path, kImageSizeLimit, fmt::format("a header that says {}x{}", width, height));
 }
 
 bool is_png(std::string_view bytes) {
@@ -34,13 +37,19 @@ bool is_png(std::string_view bytes) {
 bool is_jpeg(std::string_view bytes) {
   return bytes.starts_with("\xff\xd8\xff"sv);
 }
+bool is_pnm_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
 bool is_pnm(std::string_view bytes) {
-  return bytes.starts_with("P5"sv) || bytes.starts_with("P6"sv);
+  return bytes.size() > 2 && (bytes.starts_with("P5"sv) || bytes.starts_with("P6"sv)) &&
+         (is_pnm_blank(bytes[2]) || bytes[2] == '#');
 }
 
-/// A truncated JPEG only warns; its end marker is missing.
+/// A truncated JPEG only warns; the end marker is missing after its last scan (a thumbnail in its header has
+/// one of its own).
 bool has_jpeg_end(std::string_view bytes) {
-  return bytes.rfind("\xff\xd9"sv) != std::string_view::npos;
+  const std::size_t last_scan = bytes.rfind("\xff\xda"sv);
+  return last_scan != std::string_view::npos && bytes.find("\xff\xd9"sv, last_scan) != std::string_view::npos;
 }
 
 DecodedImage decode_jpeg(const fs::path& path, std::string_view bytes, bool gray) {
@@ -49,10 +58,11 @@ DecodedImage decode_jpeg(const fs::path& path, std::string_view bytes, bool gray
   DecodedImage image;
   int subsampling = 0, colorspace = 0;
   if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &image.width, &image.height, &subsampling,
-                          &colorspace) != 0 ||
-      image.width > kMaxSide || image.height > kMaxSide) {
+                          &colorspace) != 0) {
     fail(path, "a JPEG image", tjGetErrorStr2(decoder.get()));
   }
+  if (image.width == 0 || image.height == 0) fail(path, "a JPEG image", "a header that ends early");
+  expect_sane_size(path, image.width, image.height);
   image.channels = gray ? 1 : 3;
   image.bytes_per_sample = 1;
   image.samples.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
@@ -64,11 +74,15 @@ DecodedImage decode_jpeg(const fs::path& path, std::string_view bytes, bool gray
   return image;
 }
 
-/// Header fields of PNM: white space and '#' comments between them, one white space before the samples.
+struct PnmHeader {
+  std::int64_t width = 0, height = 0;
+  std::int64_t maximum = 0;       ///< of a sample
+  std::string_view sample_bytes;  ///< what follows
+};
+
+/// White space and '#' comments, then digits.
 std::optional<std::int64_t> next_pnm_number(std::string_view bytes, std::size_t& position) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  while (position < bytes.size() &&
-         (kBlanks.find(bytes[position]) != std::string_view::npos || bytes[position] == '#')) {
+  while (position < bytes.size() && (is_pnm_blank(bytes[position]) || bytes[position] == '#')) {
     position = bytes[position] == '#' ? std::min(bytes.find('\n', position), bytes.size()) : position + 1;
   }
   const std::size_t begin = position;
@@ -78,34 +92,52 @@ std::optional<std::int64_t> next_pnm_number(std::string_view bytes, std::size_t&
   return value;
 }
 
-DecodedImage decode_pnm(const fs::path& path, std::string_view bytes) {
+/// One white space stands between the maximum and the samples.
+PnmHeader parse_pnm_header(const fs::path& path, std::string_view bytes) {
   std::size_t position = 2;
   const auto width = next_pnm_number(bytes, position);
   const auto height = next_pnm_number(bytes, position);
   const auto maximum = next_pnm_number(bytes, position);
-  if (!width || !height || !maximum || *width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide ||
-      *maximum < 1 || *maximum > 65535) {
+  if (!width || !height || !maximum || *maximum < 1 || *maximum > 65535 || position >= bytes.size() ||
+      !is_pnm_blank(bytes[position])) {
     fail(path, "a PNM header: width, height and maximum", "another");
   }
-  ++position;
-  DecodedImage image{static_cast<int>(*width),
-                     static_cast<int>(*height),
-                     bytes[1] == '6' ? 3 : 1,
-                     *maximum > 255 ? 2 : 1,
-                     {}};
-  const std::size_t size =
-      static_cast<std::size_t>(*width * *height * image.channels * image.bytes_per_sample);
-  if (position > bytes.size() || bytes.size() - position < size) {
-    fail(path, fmt::format("{} bytes of pixels", size),
-         fmt::format("{}", bytes.size() - std::min(position, bytes.size())));
+  expect_sane_size(path, *width, *height);
+  return {*width, *height, *maximum, bytes.substr(position + 1)};
+}
+
+/// PNM is big-endian.
+void swap_to_native(std::vector<std::uint8_t>& samples) {
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    const auto value = static_cast<std::uint16_t>(samples[i] << 8 | samples[i + 1]);
+    std::memcpy(&samples[i], &value, 2);
   }
-  image.samples.resize(size);
-  std::memcpy(image.samples.data(), bytes.data() + position, size);
-  if (image.bytes_per_sample == 2) {  // PNM is big-endian
-    for (std::size_t i = 0; i < size; i += 2) {
-      const auto value = static_cast<std::uint16_t>(image.samples[i] << 8 | image.samples[i + 1]);
-      std::memcpy(&image.samples[i], &value, 2);
-    }
+}
+
+/// 8-bit samples from [0, maximum] to [0, 255].
+void stretch(std::vector<std::uint8_t>& samples, int maximum) {
+  for (std::uint8_t& sample : samples)
+    sample = static_cast<std::uint8_t>((255 * std::min<int>(sample, maximum) + maximum / 2) / maximum);
+}
+
+DecodedImage decode_pnm(const fs::path& path, std::string_view bytes) {
+  const PnmHeader header = parse_pnm_header(path, bytes);
+  DecodedImage image{static_cast<int>(header.width),
+                     static_cast<int>(header.height),
+                     bytes[1] == '6' ? 3 : 1,
+                     header.maximum > 255 ? 2 : 1,
+                     {}};
+  const auto size =
+      static_cast<std::size_t>(header.width * header.height * image.channels * image.bytes_per_sample);
+  if (header.sample_bytes.size() < size) {
+    fail(path, fmt::format("{} bytes of pixels", size), fmt::format("{}", header.sample_bytes.size()));
+  }
+  image.samples.assign(header.sample_bytes.begin(),
+                       header.sample_bytes.begin() + static_cast<std::ptrdiff_t>(size));
+  if (image.bytes_per_sample == 2) {
+    swap_to_native(image.samples);
+  } else if (header.maximum != 255) {
+    stretch(image.samples, static_cast<int>(header.maximum));
   }
   return image;
 }

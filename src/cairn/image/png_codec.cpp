@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 
 namespace cairn {
 namespace {
@@ -51,6 +52,7 @@ class Reader {
     ByteSource source{bytes};
     png_set_read_fn(png_, &source, read_bytes);
     png_read_info(png_, info_);
+    expect_plausible_size(bytes.size());
     normalise_pixels();
     image.width = static_cast<int>(png_get_image_width(png_, info_));
     image.height = static_cast<int>(png_get_image_height(png_, info_));
@@ -65,6 +67,15 @@ class Reader {
   }
 
  private:
+  void expect_plausible_size(std::size_t bytes) const {
+    const png_uint_32 width = png_get_image_width(png_, info_), height = png_get_image_height(png_, info_);
+    const bool sane = is_image_size(width, height);
+    if (!sane) throw PngError("a header that says " + std::to_string(width) + "x" + std::to_string(height));
+    constexpr std::size_t kMaxDeflateRatio = 1032;  // zlib's technical details, "Maximum Compression Factor"
+    if (png_get_rowbytes(png_, info_) * height / kMaxDeflateRatio > bytes)
+      throw PngError("the file ends too early");
+  }
+
   void normalise_pixels() {
     const int type = png_get_color_type(png_, info_);
     if (type == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);

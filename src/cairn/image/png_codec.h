@@ -18,6 +18,13 @@ struct DecodedImage {
   std::vector<std::uint8_t> samples;
 };
 
+/// Larger images are refused before memory is taken for what a broken header says.
+[[nodiscard]] constexpr bool is_image_size(std::int64_t width, std::int64_t height) {
+  constexpr std::int64_t kMaxSide = 32768, kMaxPixels = std::int64_t{1} << 28;
+  return width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxPixels;
+}
+constexpr const char* kImageSizeLimit = "an image of at most 32768 pixels a side and 268 million in all";
+
 /// Decodes a PNG held in memory; palettes and 1, 2, 4-bit grey become 8-bit, transparency is dropped.
 /// Returns an empty string, or what is wrong with the file.
 [[nodiscard]] std::string decode_png(std::string_view bytes, DecodedImage& image);

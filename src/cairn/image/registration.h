@@ -15,21 +15,28 @@ namespace cairn {
 
 /// Depth seen by the depth camera, moved into the colour camera's pixels: each depth pixel's centre is
 /// projected, covers as many colour pixels as it spans there, and the nearest surface wins (z-buffer). Depths
-/// become the colour camera's. 0 where nothing fell.
+/// become the colour camera's. 0 where nothing fell. The span follows focal lengths, distortion and rotation
+/// of the cameras, so that a surface that faces them has no holes.
 class DepthRegistration {
  public:
   DepthRegistration(const Camera& depth_camera, const Camera& color_camera, const Rigid3& camera_from_depth);
   [[nodiscard]] DepthImage operator()(const DepthImage& depth) const;
 
  private:
-  void splat(DepthImage& registered, const Eigen::Vector3d& rotated_ray, double depth) const;
+  /// What one depth pixel is to the colour camera.
+  struct PixelRay {
+    Eigen::Vector3d rotated;    // R * (x/z, y/z, 1); NaN where there is none
+    Eigen::Vector2d half_span;  // colour pixels, half the depth pixel's extent at equal distance
+  };
+
+  void cast_rays(const Eigen::Matrix3d& rotation);
+  void measure_spans();
+  void splat(DepthImage& registered, const PixelRay& ray, double depth) const;
 
   Camera depth_camera_;
   Camera color_camera_;
   Eigen::Vector3d translation_;
-  Eigen::Vector2d magnification_;  // colour pixels per depth pixel, at equal distance
-  std::vector<Eigen::Vector3d>
-      rotated_rays_;  // R * (x/z, y/z, 1) of each depth pixel; NaN where there is none
+  std::vector<PixelRay> rays_;  // row by row
 };
 
 }  // namespace cairn

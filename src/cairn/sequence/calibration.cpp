@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -24,14 +25,17 @@ class Mapping {
   Mapping(std::string file, std::string name, YAML::Node node, const std::vector<std::string>& known)
       : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {
     if (!node_.IsMap())
-      fail(node_, fmt::format("a mapping for '{}'", name_), "another kind of value",
+      fail(node_, fmt::format("a mapping for '{}'", name_), describe(node_),
            "See the README, \"Calibration\".");
+    std::set<std::string> seen;
     for (const auto& item : node_) {
-      const auto key = item.first.as<std::string>();
+      const std::string key = item.first.IsScalar() ? item.first.Scalar() : "a list or mapping";
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         fail(item.first, fmt::format("a known key in '{}'", name_), fmt::format("'{}'", key),
              fmt::format("Did you mean '{}'?", nearest_name(key, known)));
       }
+      if (!seen.insert(key).second)
+        fail(item.first, fmt::format("one '{}' in '{}'", key, name_), "two", "Delete one.");
     }
   }
 
@@ -45,9 +49,7 @@ class Mapping {
     try {
       return value.as<T>();
     } catch (const YAML::Exception&) {
-      fail(value, fmt::format("{} for '{}'", kind, key),
-           value.IsScalar() ? fmt::format("'{}'", value.Scalar()) : "another kind of value",
-           "Mend the value.");
+      fail(value, fmt::format("{} for '{}'", kind, key), describe(value), "Mend the value.");
     }
   }
 
@@ -67,12 +69,16 @@ class Mapping {
 
   void check(bool holds, const std::string& key, const std::string& expected) const {
     const YAML::Node value = node_[key];
-    if (!holds)
-      fail(value, fmt::format("{} for '{}'", expected, key), value.IsScalar() ? value.Scalar() : "another",
-           "Mend the value.");
+    if (!holds) fail(value, fmt::format("{} for '{}'", expected, key), describe(value), "Mend the value.");
   }
 
  private:
+  static std::string describe(const YAML::Node& value) {
+    if (value.IsScalar()) return fmt::format("'{}'", value.Scalar());
+    if (value.IsSequence()) return fmt::format("a list of {}", value.size());
+    return value.IsMap() ? "a mapping" : "nothing";
+  }
+
   [[noreturn]] void fail(const YAML::Node& at, std::string expected, std::string found,
                          std::string remedy) const {
     throw InputError({file_, at.Mark().line + 1, std::move(expected), std::move(found), std::move(remedy)});
@@ -115,13 +121,18 @@ void parse_distortion(const Mapping& mapping, Camera& camera) {
   }
 }
 
+int parse_side(const Mapping& mapping, const std::string& key) {
+  constexpr int kMaxSide = 32768;
+  const int pixels = mapping.get<int>(key, "a whole number of pixels");
+  mapping.check(pixels > 0 && pixels <= kMaxSide, key, "from 1 to 32768 pixels");
+  return pixels;
+}
+
 Camera parse_camera(const Mapping& mapping) {
   Camera camera;
   camera.model = parse_model(mapping);
-  camera.width = mapping.get<int>("width", "pixels");
-  camera.height = mapping.get<int>("height", "pixels");
-  mapping.check(camera.width > 0, "width", "a number of pixels above 0");
-  mapping.check(camera.height > 0, "height", "a number of pixels above 0");
+  camera.width = parse_side(mapping, "width");
+  camera.height = parse_side(mapping, "height");
   camera.fx = mapping.positive("fx");
   camera.fy = mapping.positive("fy");
   camera.cx = mapping.number("cx");
@@ -211,7 +222,10 @@ Calibration read_calibration(const std::filesystem::path& path) {
     calibration.poses_are = which == "depth" ? PosesAre::depth : PosesAre::camera;
     mapping.check(which == "camera" || calibration.depth, "poses_are", "camera, as there is no 'depth',");
   }
-  if (mapping.has("rate_hz")) calibration.rate_hz = mapping.positive("rate_hz");
+  if (mapping.has("rate_hz")) {
+    calibration.rate_hz = mapping.positive("rate_hz");
+    mapping.check(calibration.rate_hz <= 1e6, "rate_hz", "at most a million frames per second");
+  }
   return calibration;
 }
 
@@ -222,13 +236,13 @@ std::string format_calibration(const Calibration& calibration) {
     const DepthCalibration& depth = *calibration.depth;
     text +=
         fmt::format("depth:\n  scale: {}\n  invalid: [{}]\n", depth.scale, fmt::join(depth.invalid, ", "));
-    if (depth.camera) {
+    if (depth.camera) text += fmt::format("  camera: {}\n", format_camera(*depth.camera));
+    if (depth.camera || motion_norm(depth.camera_from_depth) > 0) {
       const auto& t = depth.camera_from_depth.translation;
       const auto& q = depth.camera_from_depth.rotation;
       text += fmt::format(
-          "  camera: {}\n  camera_from_depth: {{translation: [{}, {}, {}], quaternion_xyzw: [{}, {}, {}, "
-          "{}]}}\n",
-          format_camera(*depth.camera), t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+          "  camera_from_depth: {{translation: [{}, {}, {}], quaternion_xyzw: [{}, {}, {}, {}]}}\n", t.x(),
+          t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
     }
   }
   if (calibration.poses_are == PosesAre::depth) text += "poses_are: depth\n";

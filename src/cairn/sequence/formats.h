@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "cairn/sequence/sequence.h"
 
@@ -24,7 +28,14 @@ void list_kitti(const std::filesystem::path& folder, Sequence& sequence);
 [[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);
 void list_numbered(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
-/// Stamp of file number `number` where the format has no time: number / rate_hz.
+/// What lies in a folder, sorted, hidden files left out.
+[[nodiscard]] std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
+/// By its extension: png, jpg, jpeg, pgm, ppm.
+[[nodiscard]] bool is_image_name(const std::filesystem::path& file);
+/// Digits only; nothing otherwise.
+[[nodiscard]] std::optional<std::int64_t> parse_frame_number(std::string_view text);
+/// Stamp of file number `number` where the format has no time: number / rate_hz. InputError where that is
+/// more than an int64 of nanoseconds holds.
 [[nodiscard]] std::int64_t stamp_of_number(std::int64_t number, double rate_hz);
 
 /// A TUM trajectory file whose first column holds whole numbers only: frame numbers, not seconds.

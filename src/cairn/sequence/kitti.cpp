@@ -27,11 +27,9 @@ std::vector<fs::path> images_in(const fs::path& folder) {
                       "KITTI's grey stereo pairs lie in image_0 (left) and image_1 (right)."});
   }
   std::vector<fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".png" || entry.path().extension() == ".jpg")
-      images.push_back(entry.path());
+  for (const fs::path& file : files_in(folder)) {
+    if (file.extension() == ".png" || file.extension() == ".jpg") images.push_back(file);
   }
-  std::sort(images.begin(), images.end());
   return images;
 }
 

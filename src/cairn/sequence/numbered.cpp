@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 
 #include "cairn/core/error.h"
@@ -36,19 +34,21 @@ std::string without_dot(const std::string& extension) {
   return extension.starts_with('.') ? extension.substr(1) : extension;
 }
 
-/// Files <number>.<extension> by number; any extension where none is given.
+bool fits(const fs::path& file, const std::string& extension) {
+  return extension.empty() ? is_image_name(file)
+                           : file.extension() == fmt::format(".{}", without_dot(extension));
+}
+
+/// Files <number>.<extension> by number; any image where no extension is given.
 std::map<std::int64_t, fs::path> numbered_files(const fs::path& folder, const std::string& extension) {
   if (!fs::is_directory(folder)) {
     throw InputError({folder.string(), 0, "a folder with numbered images", "no such folder",
                       "Check rgb_dir and depth_dir."});
   }
   std::map<std::int64_t, fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    std::int64_t number = 0;
-    const bool fits =
-        extension.empty() || entry.path().extension() == fmt::format(".{}", without_dot(extension));
-    if (fits && parse_integer(entry.path().stem().string(), number) && number >= 0)
-      files[number] = entry.path();
+  for (const fs::path& file : files_in(folder)) {
+    const auto number = parse_frame_number(file.stem().string());
+    if (number && fits(file, extension)) files.emplace(*number, file);
   }
   return files;
 }
@@ -58,8 +58,12 @@ bool has_numbered_files(const fs::path& folder) {
 }
 
 std::optional<FolderPair> folders(const fs::path& folder, const SequenceOptions& options) {
-  if (!options.rgb_dir.empty() && !options.depth_dir.empty())
-    return FolderPair{options.rgb_dir, options.depth_dir};
+  if (options.rgb_dir.empty() != options.depth_dir.empty()) {
+    throw InputError({options.rgb_dir.empty() ? "rgb_dir" : "depth_dir", 0,
+                      fmt::format("a folder beside {}", options.rgb_dir.empty() ? "depth_dir" : "rgb_dir"),
+                      "none", "Give both, or none for the folders' usual names."});
+  }
+  if (!options.rgb_dir.empty()) return FolderPair{options.rgb_dir, options.depth_dir};
   for (const FolderPair& habit : kHabits) {
     if (has_numbered_files(folder / habit.color) && has_numbered_files(folder / habit.depth)) return habit;
   }
@@ -75,18 +79,6 @@ void read_truth(const fs::path& path, Sequence& sequence) {
 }
 
 }  // namespace
-
-std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
-  return std::llround(static_cast<double>(number) * 1e9 / rate_hz);
-}
-
-bool has_frame_numbers(const fs::path& path) {
-  const TextFile file(path);
-  return std::all_of(file.lines().begin(), file.lines().end(), [](const TextLine& line) {
-    std::int64_t number = 0;
-    return parse_integer(line.fields[0], number);
-  });
-}
 
 bool is_numbered(const fs::path& folder, const SequenceOptions& options) {
   return folders(folder, options).has_value();

@@ -11,6 +11,7 @@
 #include "cairn/core/id.h"
 #include "cairn/image/image.h"
 #include "cairn/sequence/calibration.h"
+#include "cairn/sequence/frame_range.h"
 #include "cairn/sequence/trajectory.h"
 
 namespace cairn {
@@ -44,15 +45,6 @@ struct Sequence {
   SequenceReport report;
 };
 
-/// Half-open range of frames by position, as a Python slice A:B[:S]; negative numbers count from the end.
-struct FrameRange {
-  std::optional<std::int64_t> begin, end;
-  std::int64_t step = 1;
-};
-
-/// "10:200", ":50", "::2". InputError naming `option` otherwise.
-[[nodiscard]] FrameRange parse_frame_range(const std::string& text, const std::string& option);
-
 /// Parts of a calibration as parameter files give them (camera.fx, camera.scale ...).
 struct CameraParameters {
   std::optional<double> fx, fy, cx, cy;  ///< pixels
@@ -76,7 +68,8 @@ struct SequenceOptions {
 
 /// The poses a user names by --poses, or the sequence's own truth when `path` is empty: world_from_camera,
 /// one for each frame that has one (nullopt elsewhere). TUM files are associated by time (nearest, at most
-/// `max_gap_s`); a file whose first column holds the sequence's frame numbers is associated by number.
+/// `max_gap_s`); a file whose first column holds whole numbers belongs to the frames of these numbers, except
+/// in a TUM sequence, which has none. InputError where no frame gets a pose.
 [[nodiscard]] std::vector<std::optional<Rigid3>> poses_of_frames(const Sequence& sequence,
                                                                  const std::filesystem::path& path,
                                                                  double max_gap_s = 0.02);
@@ -89,10 +82,11 @@ struct Frame {
   DepthImage depth;  ///< registered to the colour camera, metres; empty where the sequence has none
 };
 
-/// Decodes frames of one sequence; safe to call from several threads.
+/// Decodes frames of one sequence, which must live as long; safe to call from several threads.
 class FrameLoader {
  public:
   explicit FrameLoader(const Sequence& sequence);
+  explicit FrameLoader(const Sequence&&) = delete;
   ~FrameLoader();
   /// InputError for an image that cannot be decoded, or whose size is not the calibration's.
   [[nodiscard]] Frame load(FrameId id) const;

@@ -28,11 +28,12 @@ std::string_view content_of(std::string_view line) {
   return line;
 }
 
-bool is_yaml(const std::string& text) {
+/// The first line with contents tells: `name: value` is YAML, `name=value` is none.
+bool is_yaml(std::string_view text) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = content_of(std::string_view(text).substr(begin, end - begin));
-    if (!line.empty()) return line.find('=') == std::string_view::npos;  // the first line with contents tells
+    const std::string_view line = content_of(text.substr(begin, end - begin));
+    if (!line.empty()) return std::min(line.find(": "), line.find('{')) <= line.find('=');
     begin = end + 1;
   }
   return true;
@@ -45,12 +46,12 @@ std::optional<Setting> split(std::string_view line, const std::string& source, i
                  number};
 }
 
-std::vector<Setting> read_lines(const std::string& text, const std::string& source) {
+std::vector<Setting> read_lines(std::string_view text, const std::string& source) {
   std::vector<Setting> settings;
   int number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = content_of(std::string_view(text).substr(begin, end - begin));
+    const std::string_view line = content_of(text.substr(begin, end - begin));
     ++number;
     begin = end + 1;
     if (line.empty()) continue;
@@ -76,7 +77,7 @@ std::vector<Setting> read_yaml(const std::string& text, const std::string& sourc
   std::vector<Setting> settings;
   for (const auto& item : root) {
     const int line = item.first.Mark().line + 1;
-    const auto key = item.first.as<std::string>();
+    const std::string& key = item.first.Scalar();  // empty for a list or a mapping
     if (!item.second.IsScalar()) {
       throw InputError({source, line, fmt::format("a plain value for '{}'", key),
                         "a list, a mapping or nothing", "Write name: value."});
@@ -86,12 +87,15 @@ std::vector<Setting> read_yaml(const std::string& text, const std::string& sourc
   return settings;
 }
 
-bool parse_bool(const std::string& text, bool& value) {
+bool parse_bool(std::string text, bool& value) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   const auto is = [&](std::initializer_list<const char*> words) {
     return std::find(words.begin(), words.end(), text) != words.end();
   };
-  value = is({"yes", "true", "on", "1"});
-  return value || is({"no", "false", "off", "0"});
+  const bool yes = is({"yes", "true", "on", "1"});
+  if (!yes && !is({"no", "false", "off", "0"})) return false;
+  value = yes;
+  return true;
 }
 
 bool parse_int(const std::string& text, int& value) {
@@ -103,10 +107,30 @@ bool parse_int(const std::string& text, int& value) {
   return true;
 }
 
+/// `parse` into a copy, so that the field keeps its value where the text is of another kind.
+template <class T, class Field, class Parse>
+bool assign(const std::string& text, Field& field, Parse parse) {
+  T value{};
+  if (!parse(text, value)) return false;
+  field = value;
+  return true;
+}
+
+std::string in_quotes(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return fmt::format("\"{}\"", result);
+}
+
 }  // namespace
 
 std::vector<Setting> read_settings(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before UTF-8
+  std::string text = read_file(path);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
   return is_yaml(text) ? read_yaml(text, path.string()) : read_lines(text, path.string());
 }
 
@@ -120,13 +144,13 @@ Setting parse_setting(const std::string& text, const std::string& option) {
 
 void SettingTable::bind(const std::string& name, double& field) {
   entries_.push_back({name, "a number",
-                      [&field](const std::string& text) { return parse_number(text, field); },
+                      [&field](const std::string& text) { return assign<double>(text, field, parse_number); },
                       [&field] { return std::optional(fmt::format("{}", field)); }});
 }
 
 void SettingTable::bind(const std::string& name, int& field) {
   entries_.push_back({name, "a whole number",
-                      [&field](const std::string& text) { return parse_int(text, field); },
+                      [&field](const std::string& text) { return assign<int>(text, field, parse_int); },
                       [&field] { return std::optional(fmt::format("{}", field)); }});
 }
 
@@ -137,21 +161,21 @@ void SettingTable::bind(const std::string& name, bool& field) {
 }
 
 void SettingTable::bind(const std::string& name, std::string& field) {
-  entries_.push_back(
-      {name, "a text", [&field](const std::string& text) { return field = text, true; },
-       [&field] { return field.empty() ? std::nullopt : std::optional(fmt::format("\"{}\"", field)); }});
+  entries_.push_back({name, "a text", [&field](const std::string& text) { return field = text, true; },
+                      [&field] { return field.empty() ? std::nullopt : std::optional(in_quotes(field)); }});
 }
 
 void SettingTable::bind(const std::string& name, std::optional<double>& field) {
   entries_.push_back({name, "a number",
-                      [&field](const std::string& text) { return parse_number(text, field.emplace()); },
+                      [&field](const std::string& text) { return assign<double>(text, field, parse_number); },
                       [&field] { return field ? std::optional(fmt::format("{}", *field)) : std::nullopt; }});
 }
 
 void SettingTable::bind(const std::string& name, std::optional<std::int64_t>& field) {
-  entries_.push_back({name, "a whole number",
-                      [&field](const std::string& text) { return parse_integer(text, field.emplace()); },
-                      [&field] { return field ? std::optional(fmt::format("{}", *field)) : std::nullopt; }});
+  entries_.push_back(
+      {name, "a whole number",
+       [&field](const std::string& text) { return assign<std::int64_t>(text, field, parse_integer); },
+       [&field] { return field ? std::optional(fmt::format("{}", *field)) : std::nullopt; }});
 }
 
 void SettingTable::apply(const Setting& setting) const {

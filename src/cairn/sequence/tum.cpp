@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The TUM RGB-D benchmark's layout (Sturm et al. 2012): rgb.txt and depth.txt list `stamp path`,
-// groundtruth.txt the camera's poses, associations.txt, where there is one, `stamp rgb stamp depth`.
+// groundtruth.txt the camera's poses. associations.txt, `stamp rgb stamp depth`, stands in where a list is
+// missing: it is made from the lists and may hold a part of them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
@@ -55,6 +55,10 @@ std::vector<std::int64_t> stamps_of(const std::vector<StampedFile>& files) {
   std::vector<std::int64_t> stamps;
   for (const StampedFile& file : files) stamps.push_back(file.stamp_ns);
   return stamps;
+}
+
+bool has_lists(const fs::path& folder) {
+  return fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt");
 }
 
 std::optional<fs::path> associations_file(const fs::path& folder) {
@@ -117,15 +121,15 @@ std::optional<Calibration> calibration_by_name(const fs::path& folder) {
 }  // namespace
 
 bool is_tum(const fs::path& folder) {
-  return associations_file(folder) || (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt"));
+  return has_lists(folder) || associations_file(folder);
 }
 
 void list_tum(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
   sequence.format = "TUM";
-  if (const auto path = associations_file(folder)) {
-    list_associated(*path, sequence);
-  } else {
+  if (has_lists(folder)) {
     list_by_time(folder, options.max_stamp_gap_s, sequence);
+  } else {
+    list_associated(associations_file(folder).value(), sequence);
   }
   sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
   if (fs::exists(folder / "groundtruth.txt"))

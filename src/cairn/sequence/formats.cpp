@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/sequence/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+
+namespace cairn {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> files_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.path().filename().string().starts_with('.')) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+bool is_image_name(const fs::path& file) {
+  constexpr std::array<std::string_view, 5> kExtensions{".png", ".jpg", ".jpeg", ".pgm", ".ppm"};
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+std::optional<std::int64_t> parse_frame_number(std::string_view text) {
+  std::int64_t number = 0;
+  if (text.starts_with('-') || !parse_integer(text, number)) return std::nullopt;
+  return number;
+}
+
+std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
+  constexpr double kMaxStamp = 9e18;
+  const double stamp_ns = static_cast<double>(number) * 1e9 / rate_hz;
+  if (!(std::abs(stamp_ns) <= kMaxStamp)) {
+    throw InputError(
+        {fmt::format("frame number {}", number), 0,
+         fmt::format("a frame number below {:.3g} at {} frames per second", 9e9 * rate_hz, rate_hz),
+         fmt::format("{}", number), "Number the files from 0, or list them with time stamps (TUM)."});
+  }
+  return std::llround(stamp_ns);
+}
+
+bool has_frame_numbers(const fs::path& path) {
+  const TextFile file(path);
+  return std::all_of(file.lines().begin(), file.lines().end(), [](const TextLine& line) {
+    std::int64_t number = 0;
+    return parse_integer(line.fields[0], number);
+  });
+}
+
+}  // namespace cairn

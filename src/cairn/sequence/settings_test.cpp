@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/sequence/settings.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cairn/sequence/test_sequence.h"
+
+namespace cairn {
+namespace {
+
+struct Fields {
+  double threshold = 1.5;
+  int count = 500;
+  bool check = true;
+  std::string detector = "ORB";
+  std::optional<double> fx;
+  std::optional<std::int64_t> start;
+
+  SettingTable table() {
+    SettingTable table;
+    table.bind("threshold", threshold);
+    table.bind("count", count);
+    table.bind("check", check);
+    table.bind("detector", detector);
+    table.bind("camera.fx", fx);
+    table.bind("start_index", start);
+    return table;
+  }
+};
+
+class SettingsTest : public testing::Test, protected TestFolder {
+ protected:
+  [[nodiscard]] Fields read(const std::string& text) const {
+    Fields fields;
+    const SettingTable table = fields.table();
+    for (const Setting& setting : read_settings(write("settings", text))) table.apply(setting);
+    return fields;
+  }
+};
+
+TEST_F(SettingsTest, yaml) {
+  const Fields fields = read(
+      "# mine\nthreshold: 2.25 # px\ncount: 7\ncheck: no\ndetector: \"a = b\"\ncamera.fx: 518\nstart_index: "
+      "-3\n");
+  EXPECT_EQ(fields.threshold, 2.25);
+  EXPECT_EQ(fields.count, 7);
+  EXPECT_FALSE(fields.check);
+  EXPECT_EQ(fields.detector, "a = b");
+  EXPECT_EQ(fields.fx, 518);
+  EXPECT_EQ(fields.start, -3);
+}
+
+TEST_F(SettingsTest, yaml_whose_first_value_has_an_equals_sign) {
+  EXPECT_EQ(read("detector: \"a=b\"\n").detector, "a=b");
+  EXPECT_EQ(read("{detector: a=b}\n").detector, "a=b");
+}
+
+TEST_F(SettingsTest, lines_of_key_and_value) {
+  const Fields fields = read(
+      "# parameters\n\n  # more\nthreshold=2.25;\ncount = 7 # features\r\ncheck=no ; \t\ndetector = a: b\n"
+      "camera.fx=518;# px\nstart_index=-3");
+  EXPECT_EQ(fields.threshold, 2.25);
+  EXPECT_EQ(fields.count, 7);
+  EXPECT_FALSE(fields.check);
+  EXPECT_EQ(fields.detector, "a: b");
+  EXPECT_EQ(fields.fx, 518);
+  EXPECT_EQ(fields.start, -3);
+}
+
+TEST_F(SettingsTest, byte_order_marks_and_windows_line_ends_do_not_matter) {
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "count=7\r\n")
+                .count,
+            7);
+  EXPECT_EQ(read("\xEF\xBB\xBF"
+                 "count: 7\r\ncheck: off\r\n")
+                .count,
+            7);
+}
+
+TEST_F(SettingsTest, nothing_sets_nothing) {
+  for (const char* text : {"", "\n\n", "# only a comment\n", "{}"}) EXPECT_EQ(read(text).count, 500) << text;
+}
+
+TEST_F(SettingsTest, truth_has_many_names) {
+  for (const char* text : {"yes", "true", "True", "on", "ON", "1"})
+    EXPECT_TRUE(read("check: " + std::string(text)).check) << text;
+  for (const char* text : {"no", "false", "FALSE", "off", "0"})
+    EXPECT_FALSE(read("check=" + std::string(text)).check) << text;
+}
+
+TEST_F(SettingsTest, later_lines_go_before_earlier_ones) {
+  EXPECT_EQ(read("count=1\ncount=2\n").count, 2);
+}
+
+struct Case {
+  const char* text;
+  int line;
+  const char* rest;
+};
+
+constexpr Case kBroken[] = {
+    {"\ncoutn: 3", 2, "expected the name of a parameter, found 'coutn'.\n  Did you mean 'count'?"},
+    {"count=1\ncamera.f=3", 2,
+     "expected the name of a parameter, found 'camera.f'.\n  Did you mean 'camera.fx'?"},
+    {"count: 3.5", 1, "expected a whole number for 'count', found '3.5'.\n  Mend the value."},
+    {"count: 3000000000", 1, "expected a whole number for 'count', found '3000000000'.\n  Mend the value."},
+    {"count=", 1, "expected a whole number for 'count', found ''.\n  Mend the value."},
+    {"threshold: two", 1, "expected a number for 'threshold', found 'two'.\n  Mend the value."},
+    {"threshold=nan", 1, "expected a number for 'threshold', found 'nan'.\n  Mend the value."},
+    {"threshold=1,5", 1, "expected a number for 'threshold', found '1,5'.\n  Mend the value."},
+    {"check=maybe", 1, "expected yes or no for 'check', found 'maybe'.\n  Mend the value."},
+    {"start_index=1.0", 1, "expected a whole number for 'start_index', found '1.0'.\n  Mend the value."},
+    {"count=1\nnonsense", 2, "expected key=value, found 'nonsense'.\n  Mend or delete the line."},
+    {"count=1\n=5", 2, "expected key=value, found '=5'.\n  Mend or delete the line."},
+    {"count:\n", 1,
+     "expected a plain value for 'count', found a list, a mapping or nothing.\n  Write name: value."},
+    {"count: [1]", 1,
+     "expected a plain value for 'count', found a list, a mapping or nothing.\n  Write name: value."},
+    {"- count", 1,
+     "expected a mapping of names to values, found another kind of YAML.\n  Write name: value."},
+    {"count: 1\n? [a]\n: 2", 2, "expected the name of a parameter, found ''.\n  Did you mean 'count'?"},
+    {"count: 1\n\tcheck: x: y", 2, "expected YAML, or lines key=value, found "},
+    {"count: \"1", 1, "expected YAML, or lines key=value, found "},
+};
+
+TEST_F(SettingsTest, broken_files_are_refused_by_line) {
+  for (const Case& broken : kBroken) {
+    const std::string message = message_of([&] { return read(broken.text); });
+    const std::string place = (folder_ / "settings").string() + ":" + std::to_string(broken.line) + ": ";
+    EXPECT_TRUE(message.starts_with(place + broken.rest)) << message;
+  }
+}
+
+TEST_F(SettingsTest, a_missing_file_is_refused) {
+  EXPECT_EQ(message_of([&] { return read_settings(folder_ / "none.yaml"); }),
+            (folder_ / "none.yaml").string() +
+                ": expected a readable file, found No such file or directory.\n"
+                "  Check the path and its permissions.");
+}
+
+TEST(ParseSetting, splits_at_the_first_equals_sign) {
+  const Setting setting = parse_setting(" detector = a=b ", "--set");
+  EXPECT_EQ(setting.key, "detector");
+  EXPECT_EQ(setting.value, "a=b");
+  EXPECT_EQ(message_of([] { return parse_setting("detector", "--set"); }),
+            "--set: expected key=value, found 'detector'.\n  For example --set min_inliers=30.");
+}
+
+TEST(SettingTable, a_refused_value_changes_nothing) {
+  Fields fields;
+  const SettingTable table = fields.table();
+  for (const char* key : {"threshold", "count", "check", "camera.fx", "start_index"})
+    EXPECT_THROW(table.apply({key, "7x", "--set", 0}), InputError);
+  EXPECT_EQ(fields.threshold, 1.5);
+  EXPECT_EQ(fields.count, 500);
+  EXPECT_TRUE(fields.check);
+  EXPECT_FALSE(fields.fx);
+  EXPECT_FALSE(fields.start);
+}
+
+TEST_F(SettingsTest, format_is_read_back) {
+  Fields fields{1.0 / 3.0, std::numeric_limits<int>::min(), false, R"(C:\a "b" #c = d: e)", -1e-300, 12};
+  const Fields back = read(fields.table().format());
+  EXPECT_EQ(back.threshold, fields.threshold);
+  EXPECT_EQ(back.count, fields.count);
+  EXPECT_EQ(back.check, fields.check);
+  EXPECT_EQ(back.detector, fields.detector);
+  EXPECT_EQ(back.fx, fields.fx);
+  EXPECT_EQ(back.start, fields.start);
+  EXPECT_FALSE(read(Fields().table().format()).fx);
+}
+
+}  // namespace
+}  // namespace cairn
