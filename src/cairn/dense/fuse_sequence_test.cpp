@@ -26,7 +26,7 @@ RawDepthImage raw_depth(std::uint64_t seed) {
 
 /// A 7-Scenes folder of a few frames; frame 2 has no pose.
 fs::path write_sequence(const std::string& name) {
-  const fs::path folder = test_scene::temporary_path(name);
+  fs::path folder = test_scene::temporary_path(name);
   fs::remove_all(folder);
   fs::create_directories(folder);
   write_file(folder / "camera.yaml",
