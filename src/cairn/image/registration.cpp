@@ -34,7 +34,7 @@ DepthRegistration::DepthRegistration(const Camera& depth_camera, const Camera& c
     for (int u = 0; u < depth_camera.width; ++u) {
       const Eigen::Vector2d ray =
           depth_camera.unproject({static_cast<double>(u), static_cast<double>(v)}).value_or(none);
-      rotated_rays_.push_back(rotation * ray.homogeneous());
+      rotated_rays_.emplace_back(rotation * ray.homogeneous());
     }
   }
 }
