@@ -49,10 +49,11 @@ void print_text(const Sequence& sequence) {
   fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second\n", sequence.frames.size(),
              duration_s(sequence), rate_hz(sequence));
   if (report.depth_images > 0) {
-    fmt::print("association  {} of {} colour images have a depth image ({:.1f} %), largest gap {:.1f} ms\n",
+    fmt::print("association  {} of {} colour images have a depth image ({:.1f} %), largest gap {:.1f} ms{}\n",
                report.associated, report.color_images,
                100.0 * static_cast<double>(report.associated) / static_cast<double>(report.color_images),
-               1e3 * report.max_stamp_gap_s);
+               1e3 * report.max_stamp_gap_s,
+               report.associated_by.empty() ? "" : fmt::format(" (by {})", report.associated_by));
   }
   fmt::print("camera       {}\n", describe(sequence.calibration.camera));
   fmt::print("             from {}\n", sequence.calibration_source);

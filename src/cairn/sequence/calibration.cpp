@@ -22,8 +22,8 @@ namespace {
 /// line.
 class Mapping {
  public:
-  Mapping(std::string file, std::string name, YAML::Node node, const std::vector<std::string>& known)
-      : file_(std::move(file)), name_(std::move(name)), node_(std::move(node)) {
+  Mapping(std::string file, std::string name, const YAML::Node& node, const std::vector<std::string>& known)
+      : file_(std::move(file)), name_(std::move(name)), node_(node) {
     if (!node_.IsMap())
       fail(node_, fmt::format("a mapping for '{}'", name_), describe(node_),
            "See the README, \"Calibration\".");

@@ -27,6 +27,7 @@ struct FrameFiles {
 
 /// How the frames were found, for `cairn info` and warnings.
 struct SequenceReport {
+  std::string associated_by;  ///< how colour found its depth: "time, nearest stamp", a file; empty: by name
   std::int64_t color_images = 0;
   std::int64_t depth_images = 0;
   std::int64_t associated = 0;  ///< colour images that got a depth image

@@ -75,6 +75,12 @@ void add_frame(Sequence& sequence, const StampedFile& color, const StampedFile& 
   sequence.report.max_stamp_gap_s = std::max(sequence.report.max_stamp_gap_s, gap_s);
 }
 
+/// False where the lists name more than twice as many colour images: an associations file left over from an
+/// excerpt would silently drop most of the recording.
+bool covers_the_lists(const fs::path& associations, const fs::path& folder) {
+  return 2 * TextFile(associations).lines().size() >= TextFile(folder / "rgb.txt").lines().size();
+}
+
 void list_associated(const fs::path& path, Sequence& sequence) {
   const TextFile file(path);
   const fs::path folder = path.parent_path();
@@ -126,10 +132,13 @@ bool is_tum(const fs::path& folder) {
 
 void list_tum(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
   sequence.format = "TUM";
-  if (has_lists(folder)) {
-    list_by_time(folder, options.max_stamp_gap_s, sequence);
+  const auto associations = associations_file(folder);
+  if (associations && (!has_lists(folder) || covers_the_lists(*associations, folder))) {
+    list_associated(*associations, sequence);
+    sequence.report.associated_by = associations->filename().string();
   } else {
-    list_associated(associations_file(folder).value(), sequence);
+    list_by_time(folder, options.max_stamp_gap_s, sequence);
+    sequence.report.associated_by = "time, nearest stamp";
   }
   sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
   if (fs::exists(folder / "groundtruth.txt"))

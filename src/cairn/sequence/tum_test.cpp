@@ -61,10 +61,19 @@ TEST_F(TumTest, associations_stand_in_for_a_list_whichever_image_comes_first) {
   }
 }
 
+TEST_F(TumTest, an_associations_file_goes_before_the_lists) {
+  put("associations.txt", "1.0 rgb/x.png 1.5 depth/y.png\n2.0 rgb/z.png 2.5 depth/z.png\n");
+  const Sequence sequence = open_sequence(folder_);
+  EXPECT_EQ(sequence.frames.at(0).color, folder_ / "rgb/x.png");
+  EXPECT_EQ(sequence.report.associated_by, "associations.txt");
+}
+
 /// fr1_desk_excerpt has a file of 2 pairs beside lists of 9.
-TEST_F(TumTest, the_lists_go_before_associations) {
+TEST_F(TumTest, an_associations_file_of_an_excerpt_does_not) {
   put("associations.txt", "1.0 rgb/x.png 1.5 depth/y.png\n");
-  EXPECT_EQ(open_sequence(folder_).frames.size(), 2U);
+  const Sequence sequence = open_sequence(folder_);
+  EXPECT_EQ(sequence.frames.size(), 2U);
+  EXPECT_EQ(sequence.report.associated_by, "time, nearest stamp");
 }
 
 TEST_F(TumTest, truth_may_be_missing) {
