@@ -62,7 +62,7 @@ Color Texture::sample_trilinear(const Eigen::Vector2d& position, double level) c
   const int last = static_cast<int>(levels_.size()) - 1;
   const int fine = std::min(static_cast<int>(level), last);
   const float share = static_cast<float>(level - fine);
-  const Color color = sample_bilinear(position, fine);
+  Color color = sample_bilinear(position, fine);
   if (share < 0.01F || fine == last) return color;
   return color + share * (sample_bilinear(position, fine + 1) - color);
 }

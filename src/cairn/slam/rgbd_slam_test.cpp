@@ -119,9 +119,9 @@ TEST_F(RgbdSlam, skips_a_frame_that_cannot_be_decoded) {
 
 TEST_F(RgbdSlam, keeps_what_was_done_when_the_user_stops) {
   struct StopAtTwelve : Progress {
-    void update(std::int64_t done) override { done_ = done; }
-    [[nodiscard]] bool stop_requested() const override { return done_ >= 12; }
-    std::int64_t done_ = 0;
+    void update(std::int64_t done) override { last = done; }
+    [[nodiscard]] bool stop_requested() const override { return last >= 12; }
+    std::int64_t last = 0;
   } progress;
   const RgbdSlamResult result = run_rgbd_slam(open_sequence(folder_), {}, Executor(2), progress);
   EXPECT_TRUE(result.stopped);
