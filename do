@@ -41,6 +41,7 @@ packages_build=(
 packages_test=(
   universal-ctags  # tests/report_lengths.py measures functions with it
   clang-format-14  # tests/check_format.py
+  octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_tidy=(clang-tidy-14 python3)
 packages_format=(clang-format-14 python3)

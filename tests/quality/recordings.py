@@ -42,11 +42,11 @@ class FiveViews(program.Quality):
     def test_octree_that_octomap_reads(self):
         for name in ("five.bt", "five.ot"):
             self.figures("octree", self.sequence, "-o", name)
-            if shutil.which("convert_octree"):  # of OctoMap's own tools (octomap-tools)
-                done = subprocess.run(["convert_octree", name, f"{name}.converted.bt"], cwd=self.folder, capture_output=True,
-                                      text=True, check=False)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                self.assertGreater((self.folder / f"{name}.converted.bt").stat().st_size, 1000)
+            self.assertTrue(shutil.which("convert_octree"), "OctoMap's own tools are missing (package octomap-tools)")
+            done = subprocess.run(["convert_octree", name, f"{name}.converted.bt"], cwd=self.folder, capture_output=True,
+                                  text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreater((self.folder / f"{name}.converted.bt").stat().st_size, 1000)
 
 
 class Graphs(program.Quality):
