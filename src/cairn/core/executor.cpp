@@ -83,10 +83,16 @@ void Executor::run_pipeline(std::size_t count,
     }
     return token;
   };
+  std::exception_ptr failure;  // an exception that left the pipeline would leak the items on their way in it
   const auto use = [&](const Token& token) {
     if (stopped) return;
-    if (token.failure) std::rethrow_exception(token.failure);
-    if (!consume(token.index, token.item.get())) stopped = true;
+    try {
+      if (token.failure) std::rethrow_exception(token.failure);
+      if (!consume(token.index, token.item.get())) stopped = true;
+    } catch (...) {
+      failure = std::current_exception();
+      stopped = true;
+    }
   };
   arena_->arena.execute([&] {
     tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
@@ -94,6 +100,7 @@ void Executor::run_pipeline(std::size_t count,
                                tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, make) &
                                tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, use));
   });
+  if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace cairn
