@@ -9,10 +9,57 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <utility>
 
 #include "cairn/core/error.h"
 
 namespace cairn {
+namespace {
+
+struct Token {
+  std::size_t index = 0;
+  std::shared_ptr<void> item;
+  std::exception_ptr failure;  // thrown when its turn comes, as one thread would
+};
+
+/// The three stages of ordered_pipeline. No exception leaves them: TBB would not free the items on their way.
+struct Pipeline {
+  const std::size_t count;
+  const std::function<std::shared_ptr<void>(std::size_t)>& produce;
+  const std::function<bool(std::size_t, void*)>& consume;
+  std::size_t next = 0;
+  std::atomic<bool> stopped = false;  // written by the last stage, read by the first
+  std::exception_ptr failure = nullptr;
+
+  Token draw(tbb::flow_control& flow) {
+    if (!stopped && next < count) return {next++, nullptr, nullptr};
+    flow.stop();
+    return {};
+  }
+
+  Token make(Token token) const {
+    if (stopped) return token;
+    try {
+      token.item = produce(token.index);
+    } catch (...) {
+      token.failure = std::current_exception();
+    }
+    return token;
+  }
+
+  void use(const Token& token) {
+    if (stopped) return;
+    try {
+      if (token.failure) std::rethrow_exception(token.failure);
+      if (!consume(token.index, token.item.get())) stopped = true;
+    } catch (...) {
+      failure = std::current_exception();
+      stopped = true;
+    }
+  }
+};
+
+}  // namespace
 
 struct Executor::Arena {
   explicit Arena(int threads)
@@ -96,9 +143,9 @@ void Executor::run_pipeline(std::size_t count,
   };
   arena_->arena.execute([&] {
     tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
-                           tbb::make_filter<void, Token>(tbb::filter_mode::serial_in_order, source) &
-                               tbb::make_filter<Token, Token>(tbb::filter_mode::parallel, make) &
-                               tbb::make_filter<Token, void>(tbb::filter_mode::serial_in_order, use));
+                           tbb::make_filter<void, Token>(filter_mode::serial_in_order, draw) &
+                               tbb::make_filter<Token, Token>(filter_mode::parallel, make) &
+                               tbb::make_filter<Token, void>(filter_mode::serial_in_order, use));
   });
   if (failure) std::rethrow_exception(failure);
 }
