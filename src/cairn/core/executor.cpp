@@ -107,47 +107,18 @@ void Executor::run_pipeline(std::size_t count,
     }
     return;
   }
-  struct Token {
-    std::size_t index = 0;
-    std::shared_ptr<void> item;
-    std::exception_ptr failure;  // thrown when its turn comes, as one thread would
-  };
-  std::size_t next = 0;
-  std::atomic<bool> stopped = false;  // written by the last stage, read by the first
-  const auto source = [&](tbb::flow_control& flow) -> Token {
-    if (stopped || next == count) {
-      flow.stop();
-      return {};
-    }
-    return {next++, nullptr, nullptr};
-  };
-  const auto make = [&](Token token) -> Token {
-    if (stopped) return token;
-    try {
-      token.item = produce(token.index);
-    } catch (...) {
-      token.failure = std::current_exception();
-    }
-    return token;
-  };
-  std::exception_ptr failure;  // an exception that left the pipeline would leak the items on their way in it
-  const auto use = [&](const Token& token) {
-    if (stopped) return;
-    try {
-      if (token.failure) std::rethrow_exception(token.failure);
-      if (!consume(token.index, token.item.get())) stopped = true;
-    } catch (...) {
-      failure = std::current_exception();
-      stopped = true;
-    }
-  };
+  Pipeline pipeline{count, produce, consume};
+  using tbb::filter_mode;
+  const auto draw = [&](tbb::flow_control& flow) { return pipeline.draw(flow); };
+  const auto make = [&](Token token) { return pipeline.make(std::move(token)); };
+  const auto use = [&](const Token& token) { pipeline.use(token); };
   arena_->arena.execute([&] {
     tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
                            tbb::make_filter<void, Token>(filter_mode::serial_in_order, draw) &
                                tbb::make_filter<Token, Token>(filter_mode::parallel, make) &
                                tbb::make_filter<Token, void>(filter_mode::serial_in_order, use));
   });
-  if (failure) std::rethrow_exception(failure);
+  if (pipeline.failure) std::rethrow_exception(pipeline.failure);
 }
 
 }  // namespace cairn
