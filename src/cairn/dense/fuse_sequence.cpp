@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <string>
 
 #include "cairn/core/error.h"
@@ -15,6 +16,7 @@ struct ReducedFrame {
   std::optional<VoxelSums> cloud;
   std::optional<OccupancyUpdate> occupancy;
   std::string defect;
+  std::exception_ptr failure;  // the defect, to be thrown again
 };
 
 ReducedFrame reduce_frame(const FrameLoader& loader, FrameId id, const PixelRays& rays,
@@ -27,6 +29,7 @@ ReducedFrame reduce_frame(const FrameLoader& loader, FrameId id, const PixelRays
     color = loader.load_color(id);
   } catch (const InputError& error) {
     reduced.defect = error.what();
+    reduced.failure = std::current_exception();
     return reduced;
   }
   if (targets.cloud != nullptr) reduced.cloud = targets.cloud->reduce(depth, color, rays, world_from_camera);
@@ -84,7 +87,8 @@ FusionReport fuse_sequence(const Sequence& sequence,
   executor.ordered_pipeline<ReducedFrame>(
       ids.size(), [&](std::size_t i) { return reduce_frame(loader, ids[i], rays, pose_of(ids[i]), targets); },
       [&](std::size_t i, ReducedFrame&& reduced) {
-        if (!reduced.defect.empty()) {
+        if (reduced.failure && report.fused == 0) std::rethrow_exception(reduced.failure);
+        if (reduced.failure) {
           progress.warn(fmt::format("frame {} left out: {}", ids[i].value, reduced.defect));
           ++report.unreadable;
         } else {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <functional>
 
 #include "cairn/core/error.h"
@@ -15,7 +16,8 @@ namespace {
 /// A frame on its way from the disk to the tracker.
 struct Arrival {
   ObservedFrame observed;
-  std::string error;  // not empty: it could not be decoded
+  std::string error;           // not empty: it could not be decoded
+  std::exception_ptr failure;  // the same, to be thrown again
   double decode_seconds = 0, feature_seconds = 0;
 };
 
@@ -37,6 +39,7 @@ class Frontend {
       arrival.feature_seconds = watch.lap();
     } catch (const InputError& error) {
       arrival.error = error.what();
+      arrival.failure = std::current_exception();
     }
     return arrival;
   }
@@ -117,6 +120,8 @@ RgbdSlamResult run_rgbd_slam(const Sequence& sequence, const RgbdSlamOptions& op
     result.seconds.decode += arrival.decode_seconds;
     result.seconds.features += arrival.feature_seconds;
     if (!arrival.error.empty()) {
+      if (result.frames.empty())
+        std::rethrow_exception(arrival.failure);  // from the start: not one frame, all
       progress.warn(arrival.error + " The frame is skipped.");
       result.unreadable.push_back(arrival.error);
     } else {

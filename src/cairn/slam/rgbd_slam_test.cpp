@@ -117,6 +117,12 @@ TEST_F(RgbdSlam, skips_a_frame_that_cannot_be_decoded) {
   EXPECT_EQ(result.trajectory().size(), static_cast<std::size_t>(kFrames - 1));
 }
 
+TEST_F(RgbdSlam, refuses_a_sequence_whose_first_frame_cannot_be_decoded) {
+  Sequence sequence = open_sequence(folder_);
+  sequence.calibration.camera.width = 160;
+  EXPECT_THROW((void)run(sequence), InputError);
+}
+
 TEST_F(RgbdSlam, keeps_what_was_done_when_the_user_stops) {
   struct StopAtTwelve : Progress {
     void update(std::int64_t done) override { last = done; }
