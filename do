@@ -94,6 +94,7 @@ configure() {  # preset: only where that was not done yet; ninja sees later chan
 build() {
   need "${packages_build[@]}"
   configure release
+  [ -x build/release/cairn ] || say "building; the first time takes some minutes"
   ninja --quiet -C build/release cairn
 }
 
@@ -102,6 +103,7 @@ build_and_test() {  # preset, ctest arguments
   shift
   need "${packages_build[@]}" "${packages_test[@]}"
   configure "$preset"
+  say "building build/$preset; the first time takes some minutes"
   ninja --quiet -C "build/$preset"
   ctest --test-dir "build/$preset" --output-on-failure -j "$(nproc)" "$@"
 }

@@ -100,7 +100,7 @@ int CommonOptions::thread_count() const {
 void add_common_options(CLI::App& app, CommonOptions& options, const Offers& offers) {
   if (offers.config) {
     app.add_option("--config", options.config, "YAML or key=value file with settings")->type_name("FILE");
-    app.add_option("--set", options.settings, "one setting, goes before --config; may be repeated")
+    app.add_option("--set", options.settings, "one setting, overrides --config; may be repeated")
         ->type_name("KEY=VALUE");
   }
   if (offers.threads) {

@@ -48,7 +48,7 @@ void print_text(const Sequence& sequence) {
   fmt::print("format       {}\n", sequence.format);
   fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second\n", sequence.frames.size(),
              duration_s(sequence), rate_hz(sequence));
-  if (report.depth_images > 0) {
+  if (report.depth_images > 0 && !report.associated_by.empty()) {
     fmt::print("association  {} of {} colour images have a depth image ({:.1f} %), largest gap {:.1f} ms{}\n",
                report.associated, report.color_images,
                100.0 * static_cast<double>(report.associated) / static_cast<double>(report.color_images),
@@ -58,7 +58,7 @@ void print_text(const Sequence& sequence) {
   fmt::print("camera       {}\n", describe(sequence.calibration.camera));
   fmt::print("             from {}\n", sequence.calibration_source);
   if (sequence.calibration.baseline)
-    fmt::print("stereo       baseline {} m\n", *sequence.calibration.baseline);
+    fmt::print("stereo       baseline {:.6g} m\n", *sequence.calibration.baseline);
   if (sequence.calibration.depth) print_depth(*sequence.calibration.depth);
   if (sequence.truth) {
     fmt::print("truth        {} poses, path {:.3f} m\n", sequence.truth->size(),
@@ -110,6 +110,7 @@ int run_info(int argc, char** argv) {
   if (const auto code = parse(app, argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   common.json ? print_json(sequence) : print_text(sequence);
+  (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration
   return 0;
 }
 

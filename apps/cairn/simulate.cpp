@@ -26,7 +26,7 @@ void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
   app.add_option("-o,--output", arguments.output, "folder to write; a folder that cairn wrote is replaced")
       ->required()
       ->type_name("DIR");
-  app.add_option("--frames-count", options.frames_count,
+  app.add_option("--frames-count,--frames", options.frames_count,
                  fmt::format("frames, at {} a second", options.rate_hz))
       ->capture_default_str()
       ->type_name("N");

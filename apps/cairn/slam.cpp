@@ -58,6 +58,18 @@ int report_nothing_tracked(const RgbdSlamResult& result) {
   return 1;
 }
 
+/// A map of its first frame only is no answer.
+int warn_if_never_followed(const RgbdSlamResult& result) {
+  if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
+  fmt::print(stderr,
+             "cairn slam: no motion was found between any two of {} frames: they may lie too far apart, or "
+             "the calibration "
+             "does not belong to them.\n  Look at RUN/frames.csv; more frames per second, or --set "
+             "features=3000, may help.\n",
+             result.frames.size());
+  return 1;
+}
+
 }  // namespace
 
 int run_slam(int argc, char** argv) {
@@ -81,7 +93,9 @@ int run_slam(int argc, char** argv) {
   if (result.map.keyframes.empty()) return report_nothing_tracked(result);
   SlamSummary summary;
   summary.threads = executor.threads();
-  write_slam_files(folder.work(), result, parameters);
+  summary.seed = parameters.slam.seed;
+  summary.odometry = parameters.slam.odometry;
+  write_slam_files(folder.work(), sequence, result, parameters);
   write_dense_files(folder.work(), sequence, result, parameters, wanted, executor, *progress, summary);
   add_accuracy(sequence, result, summary);
   summary.total_seconds = watch.seconds();
@@ -90,7 +104,7 @@ int run_slam(int argc, char** argv) {
   folder.commit();
   arguments.common.json ? fmt::print("{}", json)
                         : print_summary(sequence, result, summary, arguments.output, wanted);
-  return 0;
+  return warn_if_never_followed(result);
 }
 
 }  // namespace cairn::app

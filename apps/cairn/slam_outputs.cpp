@@ -95,14 +95,15 @@ void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, 
 
 }  // namespace
 
-void write_slam_files(const std::filesystem::path& folder, const RgbdSlamResult& result,
-                      SlamParameters& parameters) {
+void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
+                      const RgbdSlamResult& result, SlamParameters& parameters) {
   write_file(folder / "trajectory.txt", format_tum_trajectory(result.trajectory()));
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
   write_file(folder / "frames.csv", format_frames_csv(result));
   write_keyframe_map(folder / "map", result.map);
+  write_file(folder / "camera.yaml", format_calibration(sequence.calibration));
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
 }
@@ -162,6 +163,8 @@ std::string format_run_json(const Sequence& sequence, const RgbdSlamResult& resu
   json["ate_rmse_m"] = summary.ate_m ? nlohmann::ordered_json(*summary.ate_m) : nullptr;
   json["cloud_points"] = summary.cloud_points;
   json["octree"] = {{"occupied", summary.occupied_voxels}, {"free", summary.free_voxels}};
+  json["seed"] = summary.seed;
+  json["odometry"] = summary.odometry;
   json["threads"] = summary.threads;
   json["seconds"] = {{"total", summary.total_seconds},  {"decode", s.decode}, {"features", s.features},
                      {"tracking", s.tracking},          {"loops", s.loops},   {"graph", s.graph},

@@ -26,13 +26,15 @@ struct SlamSummary {
   double fusion_seconds = 0;
   double total_seconds = 0;
   int threads = 1;
+  std::uint64_t seed = 1;
+  bool odometry = false;
   std::optional<double> ate_m;  ///< RMSE after SE(3) alignment with the sequence's truth, where it has one
   std::int64_t ate_pairs = 0;
 };
 
-/// Trajectories, graphs and the effective configuration.
-void write_slam_files(const std::filesystem::path& folder, const RgbdSlamResult& result,
-                      SlamParameters& parameters);
+/// Trajectories, graphs, the map, and the effective configuration and calibration.
+void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
+                      const RgbdSlamResult& result, SlamParameters& parameters);
 /// The coloured cloud and the octree from the optimised keyframes, and a picture of the cloud.
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
                        const RgbdSlamResult& result, const SlamParameters& parameters,

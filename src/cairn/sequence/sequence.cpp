@@ -91,7 +91,7 @@ void apply_parameters(const CameraParameters& given, Sequence& sequence) {
 void check_calibration(const fs::path& folder, const Sequence& sequence) {
   const std::string remedy =
       "Put a camera.yaml into the folder or give --camera FILE (README, \"Calibration\"); for the TUM "
-      "benchmark --camera tum-fr1.";
+      "benchmark --camera tum-fr1, tum-fr2 or tum-fr3.";
   if (sequence.calibration.camera.width == 0) {
     throw InputError({folder.string(), 0, "a calibration", "none", remedy});
   }

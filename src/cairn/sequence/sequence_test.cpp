@@ -16,7 +16,7 @@ constexpr const char* kCamera = "camera: {width: 8, height: 6, fx: 10, fy: 10, c
 constexpr const char* kCalibrationRemedy =
     "\n  Put a camera.yaml into the folder or give --camera FILE (README, \"Calibration\"); for the TUM "
     "benchmark "
-    "--camera tum-fr1.";
+    "--camera tum-fr1, tum-fr2 or tum-fr3.";
 
 /// Ten numbered frames 100, 110, ... 190.
 class SequenceTest : public testing::Test, protected TestFolder {
