@@ -13,6 +13,8 @@ usage: ./do COMMAND [ARGUMENTS]
   demo               build, then simulate a room, map it and compare with the truth
   asan [CTEST ARGS]  the tests with the address and undefined-behaviour sanitizers
   tsan [CTEST ARGS]  the tests with the thread sanitizer
+  bench [ARGS]       time cairn beside its peers and print a table; ARGS go to Google Benchmark,
+                     e.g. ./do bench --benchmark_filter=ORB
   tidy [FILES]       clang-tidy over our sources, or over these
   format [FILES]     clang-format, in place; --check only says what is wrong
   clean              remove build/ and demo/
@@ -43,6 +45,7 @@ packages_test=(
   clang-format-14  # tests/check_format.py
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
+packages_bench=(libbenchmark-dev)
 packages_tidy=(clang-tidy-14 python3)
 packages_format=(clang-format-14 python3)
 
@@ -125,6 +128,15 @@ The sequence is in demo/room, the result in demo/run:
 END
 }
 
+bench() {
+  need "${packages_build[@]}" "${packages_bench[@]}"
+  configure release
+  grep -qx CAIRN_BENCHMARKS:BOOL=ON build/release/CMakeCache.txt ||
+    cmake -DCAIRN_BENCHMARKS=ON build/release >build/configure-release.log
+  ninja --quiet -C build/release cairn_bench
+  build/release/cairn_bench "$@"
+}
+
 tidy() {
   need "${packages_build[@]}" "${packages_tidy[@]}"
   configure tidy
@@ -151,6 +163,7 @@ main() {
     test) build_and_test release "$@" ;;
     asan | tsan) build_and_test "$command" "$@" ;;
     demo) demo ;;
+    bench) bench "$@" ;;
     tidy) tidy "$@" ;;
     format) format "$@" ;;
     clean) rm -rf build demo ;;

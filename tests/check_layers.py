@@ -41,7 +41,7 @@ LIBRARIES = {
     "ceres/": "ceres", "glog/": "ceres", "octomap/": "octomap", "nlohmann/": "nlohmann", "CLI/": "CLI",
     "GeographicLib/": "GeographicLib", "gtest/": "gtest", "gmock/": "gtest",
 }
-POSIX = {"unistd.h", "fcntl.h", "dirent.h"}
+SYSTEM = {"unistd.h", "fcntl.h", "dirent.h", "immintrin.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 
 
@@ -50,7 +50,7 @@ def library_of(header):
     for beginning, library in LIBRARIES.items():
         if header.startswith(beginning):
             return library
-    if re.fullmatch(r"[a-z_0-9]+", header) or header in POSIX or header.startswith("sys/"):
+    if re.fullmatch(r"[a-z_0-9]+", header) or header in SYSTEM or header.startswith("sys/"):
         return ""
     return None
 

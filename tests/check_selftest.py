@@ -141,6 +141,25 @@ class Headers(Sample):
         self.assertEqual(code, 0, output)
 
 
+class Kernels(Sample):
+    def objects(self, source):
+        self.write("a.cpp", source + "\n")
+        place = self.root / "build/cairn_room_avx2.dir/kernels"
+        place.mkdir(parents=True)
+        code, output = self.run_command("g++", "-std=c++20", "-c", self.root / "a.cpp", "-o", place / "a.cpp.o")
+        self.assertEqual(code, 0, output)
+        return self.run_command(sys.executable, TESTS / "check_kernels.py", "--build", self.root / "build")
+
+    def test_accepts_functions_of_the_object_alone(self):
+        code, output = self.objects("namespace { inline int one() { return 1; } }\nint two() { return one() + 1; }")
+        self.assertEqual(code, 0, output)
+
+    def test_refuses_an_inline_function_that_others_may_define(self):
+        code, output = self.objects("inline int one() { return 1; }\nint two() { return one() + 1; }")
+        self.assertEqual(code, 1, output)
+        self.assertIn("'one()' may be shared", output)
+
+
 class Tidy(Sample):
     BAD = {
         "struct lower_type {};": "invalid case style for struct",

@@ -32,17 +32,16 @@ def sources_to_check(build, chosen):
     """(path, hash) of our sources in the compilation database."""
     common = common_hash(ROOT)
     wanted = {Path(name).resolve() for name in chosen}
-    found = []
+    states = {}  # kernels are compiled several times: one path, several commands
     for entry in json.loads((build / "compile_commands.json").read_text()):
         path = Path(entry["file"]).resolve()
         if path.is_relative_to(build) or not path.is_relative_to(ROOT) or path.relative_to(ROOT).parts[0] not in FOLDERS:
             continue
         if wanted and path not in wanted:
             continue
-        state = common.copy()
+        state = states.setdefault(path, common.copy())
         state.update(entry["command"].encode() + path.read_bytes())
-        found.append((path, state.hexdigest()))
-    return sorted(found)
+    return sorted((path, state.hexdigest()) for path, state in states.items())
 
 
 def tidy(path, build):

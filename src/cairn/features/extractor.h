@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "cairn/core/executor.h"
 #include "cairn/features/features.h"
 #include "cairn/image/image.h"
 
 namespace cairn {
 
+/// ORB and SIFT are cairn's own and describe only what they detect; OPENCV_ORB, OPENCV_SIFT, AKAZE and BRISK
+/// are OpenCV's and go together in any pair that fits. Case does not matter.
 struct FeatureOptions {
   std::string detector = "ORB";    ///< see detector_names()
   std::string descriptor = "ORB";  ///< see descriptor_names()
@@ -22,11 +25,15 @@ struct FeatureOptions {
 [[nodiscard]] const std::vector<std::string>& detector_names();
 [[nodiscard]] const std::vector<std::string>& descriptor_names();
 
-/// Finds and describes features. Deterministic; one object may be used by several threads.
+/// Finds and describes features. Deterministic: the same bits at any number of threads and on any instruction
+/// set (of cairn's own methods). One object may be used by several threads.
 class Extractor {
  public:
   virtual ~Extractor() = default;
-  [[nodiscard]] virtual Features extract(const GrayImage& image) const = 0;
+  /// Any image, also one too small for a patch: then there are no features.
+  [[nodiscard]] virtual Features extract(const GrayImage& image, const Executor& executor) const = 0;
+  /// On one thread.
+  [[nodiscard]] Features extract(const GrayImage& image) const { return extract(image, Executor()); }
 };
 
 /// The extractor that the options name; validates them.

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "comparison.h"
+#include "features.h"
+
+int main(int argc, char** argv) {
+  try {
+    const cairn::bench::Inputs inputs = cairn::bench::load_inputs(CAIRN_DATA_DIR);
+    cairn::bench::Comparisons comparisons;
+    cairn::bench::add_orb(comparisons, inputs);
+    return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "cairn_bench: {}\n", error.what());
+    return 2;
+  }
+}

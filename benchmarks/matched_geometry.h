@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/features/extractor.h"
+#include "image_pairs.h"
+
+namespace cairn::bench {
+
+/// Matches of a pair that agree with its true geometry.
+struct Correctness {
+  int matches = 0;  ///< those whose first pixel has a true place
+  int correct = 0;  ///< of these, within 2 px of it
+};
+
+/// Extracts both images, matches mutual nearest neighbours with cairn's matcher, and compares with the truth.
+[[nodiscard]] Correctness count_correct(const Extractor& extractor, const ImagePair& pair);
+
+}  // namespace cairn::bench

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cairn/features/extractor.h"
+#include "features.h"
+#include "matched_geometry.h"
+
+namespace cairn::bench {
+namespace {
+
+constexpr int kCount = 1000;
+
+std::shared_ptr<const Extractor> extractor(const std::string& name) {
+  return make_extractor({name, name, kCount});
+}
+
+}  // namespace
+
+void add_orb(Comparisons& comparisons, const Inputs& inputs) {
+  const auto ours = extractor("ORB");
+  const auto peers = extractor("OPENCV_ORB");
+  comparisons.timed.push_back({"ORB 1000, 640x480",
+                               1,
+                               [=, &inputs] { (void)ours->extract(inputs.vga); },
+                               [=, &inputs] { (void)peers->extract(inputs.vga); },
+                               1.0 / 3,
+                               {}});
+  for (const ImagePair& pair : inputs.pairs) {
+    const Correctness own = count_correct(*ours, pair);
+    const Correctness theirs = count_correct(*peers, pair);
+    comparisons.quality.push_back({fmt::format("ORB 1000, correct matches, {}", pair.name),
+                                   static_cast<double>(own.correct),
+                                   static_cast<double>(theirs.correct),
+                                   1.0,
+                                   {}});
+  }
+}
+
+}  // namespace cairn::bench

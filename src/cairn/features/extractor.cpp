@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/features/extractor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+#include "cairn/features/opencv_extractor.h"
+
+namespace cairn {
+namespace {
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+bool is_own(const std::string& upper_name) {
+  return upper_name == "ORB" || upper_name == "SIFT";
+}
+
+void check_name(const std::string& option, const std::string& name, const std::vector<std::string>& known) {
+  if (std::find(known.begin(), known.end(), upper(name)) != known.end()) return;
+  throw InputError({option, 0, fmt::format("one of {}", fmt::join(known, ", ")), fmt::format("'{}'", name),
+                    fmt::format("Did you mean '{}'?", nearest_name(upper(name), known))});
+}
+
+/// AKAZE describes only its own keypoints, ORB needs levels that SIFT's octaves are not, and ours describe
+/// what they detect.
+bool fit_together(const std::string& detector, const std::string& descriptor) {
+  if (detector == descriptor) return true;
+  if (is_own(detector) || is_own(descriptor) || descriptor == "AKAZE") return false;
+  return !(detector == "OPENCV_SIFT" && descriptor == "OPENCV_ORB");
+}
+
+}  // namespace
+
+const std::vector<std::string>& detector_names() {
+  static const std::vector<std::string> kNames{"ORB", "SIFT", "OPENCV_ORB", "OPENCV_SIFT", "AKAZE", "BRISK"};
+  return kNames;
+}
+
+const std::vector<std::string>& descriptor_names() {
+  return detector_names();
+}
+
+void FeatureOptions::validate() const {
+  check_name("detector", detector, detector_names());
+  check_name("descriptor", descriptor, descriptor_names());
+  if (!fit_together(upper(detector), upper(descriptor))) {
+    throw InputError(
+        {"descriptor", 0, fmt::format("a descriptor that can describe {} keypoints", upper(detector)),
+         fmt::format("'{}'", descriptor), fmt::format("Set descriptor to {}.", upper(detector))});
+  }
+  if (count < 1)
+    throw InputError(
+        {"features", 0, "at least 1 feature per image", fmt::format("{}", count), "The default is 1000."});
+}
+
+std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {
+  options.validate();
+  FeatureOptions named = options;
+  named.detector = upper(options.detector);
+  named.descriptor = upper(options.descriptor);
+  return make_opencv_extractor(named);
+}
+
+}  // namespace cairn
