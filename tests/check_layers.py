@@ -78,8 +78,8 @@ def complaint_about_library(header, room, is_test, is_public):
 
 def complaint_about_room(header, room):
     parts = header.split("/")
-    if parts[0] != "cairn" or len(parts) != 3:
-        return f'"{header}": write the whole path, "cairn/<room>/<file>.h"'
+    if parts[0] != "cairn" or len(parts) not in (3, 4):
+        return f'"{header}": write the whole path, "cairn/<room>/[<folder>/]<file>.h"'
     names = list(ROOMS)
     if parts[1] not in ROOMS:
         return f'"{header}": there is no room \'{parts[1]}\''

@@ -84,7 +84,8 @@ std::string message_of(const FeatureOptions& options) {
 
 TEST(FeatureOptions, name_what_is_wrong) {
   EXPECT_EQ(message_of({"OBR", "ORB", 100}),
-            "detector: expected one of ORB, SIFT, OPENCV_ORB, OPENCV_SIFT, AKAZE, BRISK, found 'OBR'.\n  Did you mean 'ORB'?");
+            "detector: expected one of ORB, SIFT, OPENCV_ORB, OPENCV_SIFT, AKAZE, BRISK, found 'OBR'.\n  Did "
+            "you mean 'ORB'?");
   EXPECT_EQ(message_of({"ORB", "AKAZE", 100}),
             "descriptor: expected a descriptor that can describe ORB keypoints, found 'AKAZE'.\n  Set "
             "descriptor to ORB.");
