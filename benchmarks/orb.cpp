@@ -27,15 +27,7 @@ void add_orb(Comparisons& comparisons, const Inputs& inputs) {
                                [=, &inputs] { (void)peers->extract(inputs.vga); },
                                1.0 / 3,
                                {}});
-  for (const ImagePair& pair : inputs.pairs) {
-    const Correctness own = count_correct(*ours, pair);
-    const Correctness theirs = count_correct(*peers, pair);
-    comparisons.quality.push_back({fmt::format("ORB 1000, correct matches, {}", pair.name),
-                                   static_cast<double>(own.correct),
-                                   static_cast<double>(theirs.correct),
-                                   1.0,
-                                   {}});
-  }
+  add_correct_matches(comparisons, "ORB 1000", *ours, *peers, inputs.pairs, 1.0);
 }
 
 }  // namespace cairn::bench

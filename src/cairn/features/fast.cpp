@@ -22,7 +22,7 @@ class CellRow {
         area_(area),
         width_(static_cast<std::size_t>(image.width())),
         found_(width_),
-        scores_(width_ * static_cast<std::size_t>(area.v_end - area.v_begin + 2)) {}
+        scores_(width_ * static_cast<std::size_t>(area.v_end - area.v_begin + 2) + kReadAhead) {}
 
   std::vector<Corner> detect() {
     search(area_, options_.threshold);
@@ -44,14 +44,9 @@ class CellRow {
   bool search(const Area& area, int threshold) {
     bool any = false;
     for (int v = area.v_begin; v < area.v_end; ++v) {
-      const int count = corner_kernels().find_fast(image_.row(v), image_.width(), area.u_begin, area.u_end,
-                                                   threshold, found_.data());
-      std::uint8_t* scores = scores_of_row(v);
-      for (int i = 0; i < count; ++i) {
-        const std::int32_t u = found_[static_cast<std::size_t>(i)];
-        scores[u] = static_cast<std::uint8_t>(corner_kernels().fast_score(image_.row(v) + u, image_.width()));
-      }
-      any = any || count > 0;
+      const bool found = corner_kernels().score_fast(image_.row(v), image_.width(), image_.width(),
+                                                     area.u_begin, area.u_end, threshold, scores_of_row(v));
+      any = any || found;
     }
     return any;
   }
@@ -64,42 +59,29 @@ class CellRow {
   }
 
   bool has_corner(const Area& cell) {
+    std::uint8_t any = 0;
     for (int v = cell.v_begin; v < cell.v_end; ++v) {
       const std::uint8_t* scores = scores_of_row(v);
-      if (std::any_of(scores + cell.u_begin, scores + cell.u_end, [](std::uint8_t s) { return s > 0; }))
-        return true;
+      for (int u = cell.u_begin; u < cell.u_end; ++u) any |= scores[u];
     }
-    return false;
-  }
-
-  /// Of two equal neighbours the first in reading order stays.
-  bool is_best(const std::uint8_t* score) const {
-    const auto w = static_cast<std::ptrdiff_t>(width_);
-    const int s = *score;
-    return s > score[-w - 1] && s > score[-w] && s > score[-w + 1] && s > score[-1] && s >= score[1] &&
-           s >= score[w - 1] && s >= score[w] && s >= score[w + 1];
+    return any > 0;
   }
 
   std::vector<Corner> best_of_neighbours() {
     std::vector<Corner> corners;
     for (int v = area_.v_begin; v < area_.v_end; ++v) {
       const std::uint8_t* scores = scores_of_row(v);
-      for (int u = area_.u_begin; u < area_.u_end; ++u)
-        if (scores[u] > 0 && is_best(scores + u)) corners.push_back({u, v, scores[u], harris(u, v)});
+      const int count =
+          corner_kernels().find_peaks(scores, image_.width(), area_.u_begin, area_.u_end, found_.data());
+      for (int i = 0; i < count; ++i) {
+        const std::int32_t u = found_[static_cast<std::size_t>(i)];
+        corners.push_back({u, v, scores[u]});
+      }
     }
     return corners;
   }
 
-  /// Harris and Stephens 1988: determinant - 0.04 trace^2 of the structure tensor, per pixel and Sobel's
-  /// factor.
-  [[nodiscard]] float harris(int u, int v) const {
-    constexpr double kTraceFactor = 0.04;
-    constexpr double kUnit = 1.0 / (4.0 * 7 * 7 * 255);  // gradients in [-1, 1], mean over the window
-    std::int32_t sums[3];
-    corner_kernels().structure_tensor(image_.row(v) + u, image_.width(), sums);
-    const double xx = sums[0] * kUnit, xy = sums[1] * kUnit, yy = sums[2] * kUnit;
-    return static_cast<float>(xx * yy - xy * xy - kTraceFactor * (xx + yy) * (xx + yy));
-  }
+  static constexpr std::size_t kReadAhead = 65;  // bytes behind the last score that find_peaks may read
 
   const GrayImage& image_;
   const FastOptions& options_;
@@ -131,6 +113,16 @@ std::vector<Corner> detect_fast(const GrayImage& image, const FastOptions& optio
   std::vector<Corner> corners;
   for (const auto& row : corners_of_rows) corners.insert(corners.end(), row.begin(), row.end());
   return corners;
+}
+
+float harris_measure(const GrayImage& image, int u, int v) {
+  constexpr double kTraceFactor = 0.04;
+  constexpr double kUnit =
+      1.0 / (16.0 * 7 * 7 * 255 * 255);  // Sobel's factor 4 and 255 grey levels, squared; mean
+  std::int32_t sums[3];
+  corner_kernels().structure_tensor(image.row(v) + u, image.width(), sums);
+  const double xx = sums[0] * kUnit, xy = sums[1] * kUnit, yy = sums[2] * kUnit;
+  return static_cast<float>(xx * yy - xy * xy - kTraceFactor * (xx + yy) * (xx + yy));
 }
 
 }  // namespace cairn

@@ -74,20 +74,43 @@ std::vector<int> quotas(const std::vector<std::vector<Corner>>& corners, int cou
   return quota;
 }
 
-std::vector<Corner> select(const std::vector<Corner>& corners, int count, const GrayImage& image,
-                           double crowding) {
+/// The corners with the highest scores, twice as many as are wanted, in their order: Harris' measure then
+/// chooses.
+void drop_weakest(std::vector<Corner>& corners, int wanted) {
+  const std::size_t limit = 2 * static_cast<std::size_t>(wanted);
+  if (corners.size() <= limit) return;
+  std::vector<std::size_t> with_score(256);
+  for (const Corner& corner : corners) ++with_score[static_cast<std::size_t>(corner.score)];
+  int score = 255;
+  for (std::size_t above = 0; score > 0 && above + with_score[static_cast<std::size_t>(score)] <= limit;
+       --score)
+    above += with_score[static_cast<std::size_t>(score)];
+  std::erase_if(corners, [score](const Corner& corner) { return corner.score < score; });
+}
+
+struct Selected {
+  std::int32_t u = 0, v = 0;
+  float harris = 0;
+};
+
+std::vector<Selected> select(std::vector<Corner> corners, int count, const GrayImage& image,
+                             double crowding) {
+  drop_weakest(corners, count);
   std::vector<Candidate> candidates;
   candidates.reserve(corners.size());
   for (const Corner& corner : corners)
-    candidates.push_back({static_cast<float>(corner.u), static_cast<float>(corner.v), corner.harris});
-  std::vector<Corner> selected;
-  for (const std::int32_t i : select_spread(candidates, count, image.width(), image.height(), crowding))
-    selected.push_back(corners[static_cast<std::size_t>(i)]);
+    candidates.push_back({static_cast<float>(corner.u), static_cast<float>(corner.v),
+                          harris_measure(image, corner.u, corner.v)});
+  std::vector<Selected> selected;
+  for (const std::int32_t index : select_spread(candidates, count, image.width(), image.height(), crowding)) {
+    const auto i = static_cast<std::size_t>(index);
+    selected.push_back({corners[i].u, corners[i].v, candidates[i].strength});
+  }
   return selected;
 }
 
-std::vector<std::vector<Corner>> corners_of(const ImagePyramid& pyramid, const OrbOptions& options,
-                                            const Executor& executor) {
+std::vector<std::vector<Selected>> corners_of(const ImagePyramid& pyramid, const OrbOptions& options,
+                                              const Executor& executor) {
   std::vector<std::vector<Corner>> corners;
   FastOptions fast;
   fast.threshold = options.threshold;
@@ -96,12 +119,12 @@ std::vector<std::vector<Corner>> corners_of(const ImagePyramid& pyramid, const O
   for (const ImagePyramid::Level& level : pyramid.levels)
     corners.push_back(detect_fast(level.image, fast, executor));
   const std::vector<int> quota = quotas(corners, options.count, options.scale);
-  for (std::size_t l = 0; l < corners.size(); ++l)
-    corners[l] = select(corners[l], quota[l], pyramid.levels[l].image, options.crowding);
-  return corners;
+  return executor.map<std::vector<Selected>>(corners.size(), [&](std::size_t l) {
+    return select(std::move(corners[l]), quota[l], pyramid.levels[l].image, options.crowding);
+  });
 }
 
-Keypoint keypoint_of(const ImagePyramid::Level& level, const Corner& corner, const Direction& direction) {
+Keypoint keypoint_of(const ImagePyramid::Level& level, const Selected& corner, const Direction& direction) {
   const auto scale = static_cast<float>(std::sqrt(level.scale_u * level.scale_v));
   return {static_cast<float>(level.u_in_image(corner.u)),
           static_cast<float>(level.v_in_image(corner.v)),
@@ -139,7 +162,7 @@ Features extract_orb(const GrayImage& image, const OrbOptions& options, const Ex
     const GrayImage smooth = smooth_for_brief(level.image, executor);
     executor.for_each_chunk(corners[l].size(), kKeypointsPerTask, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
-        const Corner& corner = corners[l][i];
+        const Selected& corner = corners[l][i];
         const Direction direction = direction_of(level.image, corner.u, corner.v);
         features.keypoints[begin + i] = keypoint_of(level, corner, direction);
         describe(smooth, corner.u, corner.v, direction, features.descriptors.row(begin + i));

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/kernels/corner_kernels.h"
 
-#if defined(__SSE4_2__)
-#include <immintrin.h>
-#endif
+#include "cairn/features/kernels/byte_lanes.h"
 
 namespace cairn::CAIRN_ISA {
 namespace {
@@ -23,183 +21,170 @@ Ring ring_of(std::ptrdiff_t stride) {
   return ring;
 }
 
-/// Whether 9 neighbours of the 16 bits are set, the 16th being beside the first.
-bool has_arc(unsigned bits) {
-  const unsigned twice = bits | bits << kRing;
-  const unsigned two = twice & twice >> 1;
-  const unsigned four = two & two >> 2;
-  const unsigned eight = four & four >> 4;
-  return (eight & twice >> 8) != 0;
+/// The largest, over all 16 arcs of 9 neighbours, of the smallest difference in the arc. The arcs that begin
+/// at i and i + 1 share 8 places: min(shared, max(d[i], d[i + 9])) is the better of the two.
+template <class B>
+[[gnu::always_inline]] inline B best_arc(const B* d) {
+  B two[kRing], four[kRing];
+  for (int i = 1; i < kRing; i += 2) two[i] = least(d[i], d[(i + 1) % kRing]);
+  for (int i = 1; i < kRing; i += 2) four[i] = least(two[i], two[(i + 2) % kRing]);
+  B best = B::fill(0);
+  for (int i = 0; i < kRing; i += 2) {
+    const B shared = least(four[i + 1], four[(i + 5) % kRing]);
+    best = most(best, least(shared, most(d[i], d[(i + 9) % kRing])));
+  }
+  return best;
 }
 
-bool is_corner(const std::uint8_t* pixel, const Ring& ring, int threshold) {
-  const int high = *pixel + threshold, low = *pixel - threshold;
-  unsigned brighter = 0, darker = 0;
-  for (int i = 0; i < kRing; ++i) {
-    const int value = pixel[ring.offset[i]];
-    brighter |= static_cast<unsigned>(value > high) << i;
-    darker |= static_cast<unsigned>(value < low) << i;
-  }
-  return has_arc(brighter) || has_arc(darker);
+/// Whether any pixel may be a corner: of 9 neighbours on the ring, two are neighbours among its top, right,
+/// bottom and left.
+template <class B>
+bool cross_differs(const B* d, B limit) {
+  return least(most(d[0], d[8]), most(d[4], d[12])).not_below(limit) != 0;
 }
 
-/// Many pixels at once: one bit or byte a pixel says whether a comparison holds there.
-#if defined(__AVX512BW__)
-struct Lanes {
-  using Pixels = __m512i;
-  using Flags = std::uint64_t;
-  static constexpr int kCount = 64;
-  static Pixels load(const std::uint8_t* p) { return _mm512_loadu_si512(p); }
-  static Pixels fill(int value) { return _mm512_set1_epi8(static_cast<char>(value)); }
-  static Pixels plus(Pixels a, Pixels b) { return _mm512_adds_epu8(a, b); }
-  static Pixels minus(Pixels a, Pixels b) { return _mm512_subs_epu8(a, b); }
-  static Flags above(Pixels a, Pixels b) { return _mm512_cmpgt_epu8_mask(a, b); }
-  static Flags both(Flags a, Flags b) { return a & b; }
-  static Flags either(Flags a, Flags b) { return a | b; }
-  static std::uint64_t bits(Flags flags) { return flags; }
-};
-#elif defined(__AVX2__)
-struct Lanes {
-  using Pixels = __m256i;
-  using Flags = __m256i;
-  static constexpr int kCount = 32;
-  static Pixels load(const std::uint8_t* p) {
-    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
-  }
-  static Pixels fill(int value) { return _mm256_set1_epi8(static_cast<char>(value)); }
-  static Pixels plus(Pixels a, Pixels b) { return _mm256_adds_epu8(a, b); }
-  static Pixels minus(Pixels a, Pixels b) { return _mm256_subs_epu8(a, b); }
-  static Flags above(Pixels a, Pixels b) { return _mm256_subs_epu8(a, b); }  // not zero: above
-  static Flags both(Flags a, Flags b) { return _mm256_min_epu8(a, b); }
-  static Flags either(Flags a, Flags b) { return _mm256_or_si256(a, b); }
-  static std::uint64_t bits(Flags flags) {
-    const auto zero = _mm256_movemask_epi8(_mm256_cmpeq_epi8(flags, _mm256_setzero_si256()));
-    return ~static_cast<std::uint32_t>(zero);
-  }
-};
-#elif defined(__SSE4_2__)
-struct Lanes {
-  using Pixels = __m128i;
-  using Flags = __m128i;
-  static constexpr int kCount = 16;
-  static Pixels load(const std::uint8_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
-  static Pixels fill(int value) { return _mm_set1_epi8(static_cast<char>(value)); }
-  static Pixels plus(Pixels a, Pixels b) { return _mm_adds_epu8(a, b); }
-  static Pixels minus(Pixels a, Pixels b) { return _mm_subs_epu8(a, b); }
-  static Flags above(Pixels a, Pixels b) { return _mm_subs_epu8(a, b); }  // not zero: above
-  static Flags both(Flags a, Flags b) { return _mm_min_epu8(a, b); }
-  static Flags either(Flags a, Flags b) { return _mm_or_si128(a, b); }
-  static std::uint64_t bits(Flags flags) {
-    const auto zero = _mm_movemask_epi8(_mm_cmpeq_epi8(flags, _mm_setzero_si128()));
-    return ~static_cast<std::uint32_t>(zero) & 0xffffU;
-  }
-};
-#endif
+/// Scores of B::kCount pixels; one is a corner with threshold t where its best arc differs by t + 1 or more.
+template <class B>
+[[gnu::always_inline]] inline B score_block(const std::uint8_t* pixels, const Ring& ring, B limit) {
+  const B centre = B::load(pixels), none = B::fill(0);
+  B brighter[kRing], darker[kRing];
+  const auto compare = [&](int i) {
+    const B value = B::load(pixels + ring.offset[i]);
+    brighter[i] = minus(value, centre);
+    darker[i] = minus(centre, value);
+  };
+  for (int i = 0; i < kRing; i += 4) compare(i);
+  const bool may_be_brighter = cross_differs(brighter, limit), may_be_darker = cross_differs(darker, limit);
+  if (!may_be_brighter && !may_be_darker) return none;
+  for (int i = 0; i < kRing; ++i)
+    if (i % 4 != 0) compare(i);
+  const B best = most(may_be_brighter ? best_arc(brighter) : none, may_be_darker ? best_arc(darker) : none);
+  return minus(best.cut_below(limit), B::fill(1));
+}
 
-#if defined(__SSE4_2__)
-/// Pixels with 9 neighbouring flags set around the ring.
-Lanes::Flags arcs(const Lanes::Flags* flags) {
-  Lanes::Flags two[kRing], four[kRing];
-  for (int i = 0; i < kRing; ++i) two[i] = Lanes::both(flags[i], flags[(i + 1) % kRing]);
-  for (int i = 0; i < kRing; ++i) four[i] = Lanes::both(two[i], two[(i + 2) % kRing]);
-  Lanes::Flags any{};
-  for (int i = 0; i < kRing; ++i) {
-    const auto eight = Lanes::both(four[i], four[(i + 4) % kRing]);
-    any = Lanes::either(any, Lanes::both(eight, flags[(i + 8) % kRing]));
+/// Blocks of `B` that lie in [begin, end), and whether any score is above 0; moves `begin` to where they end.
+template <class B>
+bool score_blocks(const std::uint8_t* row, const Ring& ring, int& begin, int end, int threshold,
+                  std::uint8_t* scores) {
+  const B limit = B::fill(threshold + 1);
+  B highest = B::fill(0);
+  for (; begin + B::kCount <= end; begin += B::kCount) {
+    const B block = score_block(row + begin, ring, limit);
+    block.store(scores + begin);
+    highest = most(highest, block);
   }
+  return highest.not_below(B::fill(1)) != 0;
+}
+
+/// Fewer than a block's pixels: the block is computed whole, where the image has room for it, and the rest
+/// dropped.
+bool score_rest(const std::uint8_t* row, const Ring& ring, int width, int begin, int end, int threshold,
+                std::uint8_t* scores) {
+  constexpr int kReach = 3;
+  const int room = width - kReach - Bytes::kCount;  // the last column where a block may begin
+  if (room < kReach) return score_blocks<Byte>(row, ring, begin, end, threshold, scores);
+  const int first = begin < room ? begin : room;
+  std::uint8_t block[Bytes::kCount];
+  const Bytes all = score_block(row + first, ring, Bytes::fill(threshold + 1));
+  all.store(block);
+  __builtin_memcpy(scores + begin, block + (begin - first), static_cast<std::size_t>(end - begin));
+  const std::uint64_t wanted = ((std::uint64_t{1} << (end - begin)) - 1) << (begin - first);
+  return (all.not_below(Bytes::fill(1)) & wanted) != 0;
+}
+
+bool score_fast(const std::uint8_t* row, std::ptrdiff_t stride, int width, int begin, int end, int threshold,
+                std::uint8_t* scores) {
+  const Ring ring = ring_of(stride);
+  bool any = score_blocks<Bytes>(row, ring, begin, end, threshold, scores);
+  if (begin < end) any = score_rest(row, ring, width, begin, end, threshold, scores) || any;
   return any;
 }
 
-/// Of 9 neighbours on the ring two are neighbours among its top, right, bottom and left.
-Lanes::Flags two_of_cross(const Lanes::Flags* flags) {
-  const auto right_half = Lanes::both(flags[4], Lanes::either(flags[0], flags[8]));
-  const auto left_half = Lanes::both(flags[12], Lanes::either(flags[0], flags[8]));
-  return Lanes::either(right_half, left_half);
+/// One bit for each of B::kCount pixels that is a peak.
+template <class B>
+std::uint64_t peaks_of_block(const std::uint8_t* scores, std::ptrdiff_t stride) {
+  const B score = B::load(scores), one = B::fill(1);
+  if (score.not_below(one) == 0) return 0;
+  const std::uint8_t *above = scores - stride, *below = scores + stride;
+  const B before =
+      most(most(B::load(above - 1), B::load(above)), most(B::load(above + 1), B::load(scores - 1)));
+  const B after =
+      most(most(B::load(below - 1), B::load(below)), most(B::load(below + 1), B::load(scores + 1)));
+  return minus(score, before).not_below(one) & score.not_below(after);
 }
 
-/// One bit for each of kCount pixels.
-std::uint64_t corners_of_block(const std::uint8_t* pixels, const Ring& ring, Lanes::Pixels threshold) {
-  const auto centre = Lanes::load(pixels);
-  const auto high = Lanes::plus(centre, threshold), low = Lanes::minus(centre, threshold);
-  Lanes::Flags brighter[kRing], darker[kRing];
-  const auto compare = [&](int i) {
-    const auto value = Lanes::load(pixels + ring.offset[i]);
-    brighter[i] = Lanes::above(value, high);
-    darker[i] = Lanes::above(low, value);
-  };
-  for (int i = 0; i < kRing; i += 4) compare(i);
-  if (Lanes::bits(Lanes::either(two_of_cross(brighter), two_of_cross(darker))) == 0) return 0;
-  for (int i = 0; i < kRing; ++i)
-    if (i % 4 != 0) compare(i);
-  return Lanes::bits(Lanes::either(arcs(brighter), arcs(darker)));
-}
-#endif
-
-int find_fast(const std::uint8_t* row, std::ptrdiff_t stride, int begin, int end, int threshold,
-              std::int32_t* found) {
-  const Ring ring = ring_of(stride);
-  int count = 0, u = begin;
-#if defined(__SSE4_2__)
-  const auto limit = Lanes::fill(threshold);
-  for (; u + Lanes::kCount <= end; u += Lanes::kCount) {
-    for (std::uint64_t bits = corners_of_block(row + u, ring, limit); bits != 0; bits &= bits - 1)
-      found[count++] = u + __builtin_ctzll(bits);
+int find_peaks(const std::uint8_t* scores, std::ptrdiff_t stride, int begin, int end, std::int32_t* found) {
+  int count = 0;
+  for (int u = begin; u < end; u += Bytes::kCount) {
+    std::uint64_t bits = peaks_of_block<Bytes>(scores + u, stride);
+    if (end - u < Bytes::kCount) bits &= (std::uint64_t{1} << (end - u)) - 1;
+    for (; bits != 0; bits &= bits - 1) found[count++] = u + __builtin_ctzll(bits);
   }
-#endif
-  for (; u < end; ++u)
-    if (is_corner(row + u, ring, threshold)) found[count++] = u;
   return count;
 }
 
-int fast_score(const std::uint8_t* pixel, std::ptrdiff_t stride) {
-  const Ring ring = ring_of(stride);
-  std::int16_t d[2 * kRing];
-  for (int i = 0; i < kRing; ++i)
-    d[i] = d[i + kRing] = static_cast<std::int16_t>(pixel[ring.offset[i]] - *pixel);
-  std::int16_t least[kRing], most[kRing];  // of the 9 from i on
-  for (int i = 0; i < kRing; ++i) least[i] = most[i] = d[i];
-  for (int k = 1; k <= 8; ++k) {
-    for (int i = 0; i < kRing; ++i) {
-      least[i] = d[i + k] < least[i] ? d[i + k] : least[i];
-      most[i] = d[i + k] > most[i] ? d[i + k] : most[i];
-    }
-  }
-  int best = 0;
-  for (int i = 0; i < kRing; ++i) {
-    const int bright = least[i], dark = -most[i];
-    best = bright > best ? bright : best;
-    best = dark > best ? dark : best;
-  }
-  return best > 0 ? best - 1 : 0;
+constexpr int kTensorHalf = 3, kTensorSide = 2 * kTensorHalf + 1;
+
+#if defined(__SSE4_2__)
+/// Eight pixels of a row smoothed (1 2 1) and differentiated (-1 0 1) along the row.
+struct SobelRow {
+  __m128i smooth, difference;
+};
+
+SobelRow sobel_row(const std::uint8_t* pixels) {
+  const auto eight = [pixels](int shift) {
+    return _mm_cvtepu8_epi16(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(pixels + shift)));
+  };
+  const __m128i left = eight(-1), middle = eight(0), right = eight(1);
+  return {_mm_add_epi16(_mm_add_epi16(left, right), _mm_slli_epi16(middle, 1)), _mm_sub_epi16(right, left)};
 }
 
-void structure_tensor(const std::uint8_t* pixel, std::ptrdiff_t stride, std::int32_t sums[3]) {
-  constexpr int kHalf = 3, kSide = 8;  // the eighth column weighs nothing: it fills the register
-  std::int32_t xx[kSide]{}, xy[kSide]{}, yy[kSide]{};
-  for (int v = -kHalf; v <= kHalf; ++v) {
-    const std::uint8_t* above = pixel + (v - 1) * stride - kHalf;
-    const std::uint8_t* row = above + stride;
-    const std::uint8_t* below = row + stride;
-    for (int i = 0; i < 2 * kHalf + 1; ++i) {
+std::int32_t sum_of(__m128i v) {
+  const __m128i two = _mm_add_epi32(v, _mm_shuffle_epi32(v, 0x4e));
+  return _mm_cvtsi128_si32(_mm_add_epi32(two, _mm_shuffle_epi32(two, 0xb1)));
+}
+
+void structure_tensor(const std::uint8_t* pixel, std::ptrdiff_t stride, std::int32_t* sums) {
+  const __m128i seven = _mm_srli_si128(_mm_set1_epi16(-1), 2);  // the eighth column is none of the window's
+  const std::uint8_t* top_left = pixel - (kTensorHalf + 1) * stride - kTensorHalf;
+  SobelRow above = sobel_row(top_left), row = sobel_row(top_left + stride);
+  __m128i xx = _mm_setzero_si128(), xy = xx, yy = xx;
+  for (int v = 0; v < kTensorSide; ++v) {
+    const SobelRow below = sobel_row(top_left + (v + 2) * stride);
+    const __m128i outer = _mm_add_epi16(above.difference, below.difference);
+    const __m128i dx = _mm_and_si128(_mm_add_epi16(outer, _mm_slli_epi16(row.difference, 1)), seven);
+    const __m128i dy = _mm_and_si128(_mm_sub_epi16(below.smooth, above.smooth), seven);
+    xx = _mm_add_epi32(xx, _mm_madd_epi16(dx, dx));
+    xy = _mm_add_epi32(xy, _mm_madd_epi16(dx, dy));
+    yy = _mm_add_epi32(yy, _mm_madd_epi16(dy, dy));
+    above = row;
+    row = below;
+  }
+  sums[0] = sum_of(xx);
+  sums[1] = sum_of(xy);
+  sums[2] = sum_of(yy);
+}
+#else
+void structure_tensor(const std::uint8_t* pixel, std::ptrdiff_t stride, std::int32_t* sums) {
+  sums[0] = sums[1] = sums[2] = 0;
+  for (int v = -kTensorHalf; v <= kTensorHalf; ++v) {
+    const std::uint8_t* row = pixel + v * stride;
+    const std::uint8_t *above = row - stride, *below = row + stride;
+    for (int i = -kTensorHalf; i <= kTensorHalf; ++i) {
       const int dx =
           above[i + 1] - above[i - 1] + 2 * (row[i + 1] - row[i - 1]) + below[i + 1] - below[i - 1];
       const int dy = below[i - 1] + 2 * below[i] + below[i + 1] - above[i - 1] - 2 * above[i] - above[i + 1];
-      xx[i] += dx * dx;
-      xy[i] += dx * dy;
-      yy[i] += dy * dy;
+      sums[0] += dx * dx;
+      sums[1] += dx * dy;
+      sums[2] += dy * dy;
     }
   }
-  sums[0] = sums[1] = sums[2] = 0;
-  for (int i = 0; i < kSide; ++i) {
-    sums[0] += xx[i];
-    sums[1] += xy[i];
-    sums[2] += yy[i];
-  }
 }
+#endif
 
 }  // namespace
 
 extern const CornerKernels kCornerKernels;
-const CornerKernels kCornerKernels{find_fast, fast_score, structure_tensor};
+const CornerKernels kCornerKernels{score_fast, find_peaks, structure_tensor};
 
 }  // namespace cairn::CAIRN_ISA
