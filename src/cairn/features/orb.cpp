@@ -47,9 +47,14 @@ bool has_patch(const GrayImage& image, int u, int v) {
   return u >= kBorder && v >= kBorder && u < image.width() - kBorder && v < image.height() - kBorder;
 }
 
-/// How many of `count` keypoints each level gets: its share falls with the scale, and what a level cannot
-/// fill goes to the others.
+/// How many of `count` keypoints each level gets. A level has fewer pixels than the one below by the scale's
+/// square; coarse corners are found again over larger changes of distance, so they get some more than that:
+/// the power is 1.5. What a level cannot fill goes to the others.
 std::vector<int> quotas(const std::vector<std::vector<Corner>>& corners, int count, double scale) {
+  constexpr double kPower = 1.5;
+  const auto weight = [&](std::size_t level) {
+    return std::pow(scale, -kPower * static_cast<double>(level));
+  };
   std::vector<int> quota(corners.size(), 0);
   std::vector<bool> full(corners.size(), false);
   for (bool again = true; again;) {
@@ -60,16 +65,22 @@ std::vector<int> quotas(const std::vector<std::vector<Corner>>& corners, int cou
       if (full[l])
         left -= quota[l];
       else
-        shares += std::pow(scale, -static_cast<double>(l));
+        shares += weight(l);
     }
     for (std::size_t l = 0; l < corners.size(); ++l) {
       if (full[l]) continue;
-      const double share = left * std::pow(scale, -static_cast<double>(l)) / shares;
+      const double share = left * weight(l) / shares;
       quota[l] = static_cast<int>(share);
       if (corners[l].size() > static_cast<std::size_t>(quota[l])) continue;
       quota[l] = static_cast<int>(corners[l].size());
       full[l] = again = true;
     }
+  }
+  int left = count - std::accumulate(quota.begin(), quota.end(), 0);  // lost in rounding
+  for (std::size_t l = 0; l < quota.size() && left > 0; ++l) {
+    if (full[l]) continue;
+    ++quota[l];
+    --left;
   }
   return quota;
 }

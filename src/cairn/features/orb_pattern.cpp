@@ -4,7 +4,7 @@
 namespace cairn {
 namespace {
 
-/// u and v of the first place, u and v of the second. orb_pattern_test.cpp holds them against the bits that
+/// u and v of the first place, u and v of the second. orb_test.cpp holds them against the bits that
 /// OpenCV's ORB makes.
 constexpr int kPairs[kBriefBits][4] = {
     {8, -3, 9, 5},       {4, 2, 7, -12},     {-11, 9, -8, 2},     {7, -12, 12, -13},   {2, -13, 2, 12},

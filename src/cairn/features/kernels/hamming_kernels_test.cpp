@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/kernels/hamming_kernels.h"
 
-#include <gtest/gtest.h>
-
 #include <bit>
 
-#include "cairn/core/random.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/features/kernels/test_kernels.h"
 
 namespace cairn {
 namespace {
 
-class HammingKernelsTest : public testing::TestWithParam<InstructionSet> {};
+using HammingKernelsTest = EachInstructionSet;
 
-TEST_P(HammingKernelsTest, CountsTheBitsThatDiffer) {
+TEST_P(HammingKernelsTest, counts_the_bits_that_differ) {
   Random random(1, 0);
   for (const std::size_t words : {1, 4, 8}) {
     for (const std::size_t count : {0, 1, 7, 64, 1001}) {
@@ -32,7 +29,7 @@ TEST_P(HammingKernelsTest, CountsTheBitsThatDiffer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, HammingKernelsTest, testing::ValuesIn(available_instruction_sets()),
-                         [](const auto& set) { return "set" + std::to_string(static_cast<int>(set.param)); });
+                         name_of_parameter);
 
 }  // namespace
 }  // namespace cairn
