@@ -21,7 +21,8 @@ struct OrbKernels {
   /// m10 = sum of u I(u, v), m01 = sum of v I(u, v) over the disc u^2 + v^2 <= radius^2 around the pixel. The
   /// square of 32 columns and 31 rows around it is read.
   void (*moments)(const std::uint8_t* pixel, std::ptrdiff_t stride, std::int32_t* m10, std::int32_t* m01);
-  /// Bit i of `bits` = I(first of pair i) < I(second), places turned by the angle and rounded to pixels.
+  /// Bit i of `bits` = I(first of pair i) < I(second), places turned by the angle and rounded to pixels,
+  /// at most 18 from the pixel; that and one more column and row around it are read.
   void (*brief)(const std::uint8_t* pixel, std::ptrdiff_t stride, const BriefPattern& pattern, float cosine,
                 float sine, std::uint8_t* bits);
 };
