@@ -11,7 +11,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kTileRows = 4;       // as many queries as the kernels work on at once
-constexpr std::size_t kTileBytes = 32768;  // of packed trains, which stay in the fastest cache for a block
+constexpr std::size_t kTileBytes = 65536;  // of packed trains, which stay in a near cache for a block
 constexpr std::size_t kMaxTileGroups = 64;
 
 /// Nearest train of each query and, where asked for, nearest query of each train.

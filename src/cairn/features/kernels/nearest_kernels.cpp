@@ -38,18 +38,26 @@ using Lanes = std::int32_t __attribute__((vector_size(4 * kLanes)));
   return lanes;
 }
 
-inline bool before(std::int32_t distance, std::int32_t at, std::int32_t other, std::int32_t other_at) {
-  return distance < other || (distance == other && at < other_at);
+/// A distance and its place as one number, in the order that we look for.
+inline std::uint64_t key_of(std::int32_t distance, std::int32_t at) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(distance)) << 32 |
+         static_cast<std::uint32_t>(at);
+}
+inline std::int32_t distance_of(std::uint64_t key) {
+  return static_cast<std::int32_t>(key >> 32);
+}
+inline std::int32_t place_of(std::uint64_t key) {
+  return static_cast<std::int32_t>(key & 0xFFFFFFFFU);
 }
 
-inline void insert(TwoSmallest& two, std::int32_t distance, std::int32_t at) {
-  if (distance == kNoDistance) return;
-  if (two.first_at < 0 || before(distance, at, two.first, two.first_at)) {
-    two.second = two.first, two.second_at = two.first_at;
-    two.first = distance, two.first_at = at;
-  } else if (two.second_at < 0 || before(distance, at, two.second, two.second_at)) {
-    two.second = distance, two.second_at = at;
-  }
+/// The two smallest keys, without branches: which lane wins cannot be predicted.
+struct TwoKeys {
+  std::uint64_t first = key_of(kNoDistance, -1), second = first;
+};
+[[gnu::always_inline]] inline void insert(TwoKeys& two, std::uint64_t key) {
+  const std::uint64_t larger = key < two.first ? two.first : key;
+  two.first = key < two.first ? key : two.first;
+  two.second = larger < two.second ? larger : two.second;
 }
 
 /// Each lane has seen its places in ascending order, so that what it holds is its lowest place.
@@ -61,11 +69,13 @@ TwoSmallest smallest(const std::int32_t* distances, std::size_t count) {
     best = min(here, best);
     at += static_cast<std::int32_t>(kLanes);
   }
+  std::uint64_t nearest = key_of(kNoDistance, -1);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const std::uint64_t key = key_of(best[i], best_at[i]);
+    nearest = key < nearest ? key : nearest;
+  }
   TwoSmallest result;
-  for (std::size_t i = 0; i < kLanes; ++i)
-    if (best[i] != kNoDistance &&
-        (result.first_at < 0 || before(best[i], best_at[i], result.first, result.first_at)))
-      result.first = best[i], result.first_at = best_at[i];
+  result.first = distance_of(nearest), result.first_at = place_of(nearest);
   return result;
 }
 
@@ -80,12 +90,11 @@ TwoSmallest two_smallest(const std::int32_t* distances, std::size_t count) {
     first = min(here, first);
     at += static_cast<std::int32_t>(kLanes);
   }
-  TwoSmallest result;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    insert(result, first[i], first_at[i]);
-    insert(result, second[i], second_at[i]);
-  }
-  return result;
+  TwoKeys nearest;
+  for (std::size_t i = 0; i < kLanes; ++i) insert(nearest, key_of(first[i], first_at[i]));
+  for (std::size_t i = 0; i < kLanes; ++i) insert(nearest, key_of(second[i], second_at[i]));
+  return {distance_of(nearest.first), place_of(nearest.first), distance_of(nearest.second),
+          place_of(nearest.second)};
 }
 
 void update_columns(const std::int32_t* distances, std::size_t rows, std::size_t count,
