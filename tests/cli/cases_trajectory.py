@@ -46,6 +46,7 @@ CASES = [
     Case("planar graph", "graph in.g2o -o out.g2o", ("in.g2o:1: expected",), (file("in.g2o", "VERTEX_SE2 0 0 0 0\n"),)),
     Case("empty graph", "graph in.g2o -o out.g2o", ("in.g2o: expected",), (file("in.g2o", ""),)),
     Case("unknown kernel", "graph in.g2o -o out.g2o --robust strong", ("--robust", "strong"), (graph(),)),
+    Case("kernel's scale that is no number", "graph in.g2o -o out.g2o --robust huber --robust-scale nan", ("--robust-scale", "'nan'"), (graph(),)),
     Case("full disk", "graph in.g2o -o out.g2o", ("out.g2o: expected to write the file", "File too large"), (graph(),), file_limit=64),
 ]
 
