@@ -12,5 +12,6 @@ int run_cloud(int argc, char** argv);
 int run_octree(int argc, char** argv);
 int run_graph(int argc, char** argv);
 int run_evaluate(int argc, char** argv);
+int run_align(int argc, char** argv);
 
 }  // namespace cairn::app

@@ -29,7 +29,8 @@ constexpr Command kCommands[] = {
     {"octree", "occupancy octree (.bt, .ot) from a cloud, or from a sequence and its poses",
      cairn::app::run_octree},
     {"graph", "optimise a pose graph (.g2o)", cairn::app::run_graph},
-    {"evaluate", "compare a trajectory with its truth: ATE, RPE", cairn::app::run_evaluate},
+    {"evaluate", "compare trajectories with their truth: ATE, RPE, drift", cairn::app::run_evaluate},
+    {"align", "the transform that moves a trajectory onto another", cairn::app::run_align},
 };
 
 void print_usage(std::FILE* stream) {
