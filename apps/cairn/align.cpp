@@ -100,7 +100,7 @@ void print_alignment_json(const Aligned& aligned) {
   json["with_scale"] = aligned.arguments.with_scale;
   json["rms_before_m"] = aligned.rms_before_m;
   json["rms_after_m"] = aligned.alignment.rmse;
-  json["turn_support"] = aligned.alignment.turn_support;
+  json["turn_uncertainty_deg"] = 180.0 / std::numbers::pi * aligned.alignment.turn_uncertainty;
   fmt::print("{}\n", json.dump(2));
 }
 
@@ -137,7 +137,7 @@ int run_align(int argc, char** argv) {
                explain(aligned.alignment.status));
     return 1;
   }
-  warn_of_free_turn(short_name(arguments.estimate), aligned.alignment.turn_support);
+  warn_of_free_turn(short_name(arguments.estimate), aligned.alignment.turn_uncertainty);
   if (!arguments.plot.empty()) write_file(arguments.plot, draw_alignment(aligned));
   arguments.common.json ? print_alignment_json(aligned) : print_alignment(aligned);
   return 0;

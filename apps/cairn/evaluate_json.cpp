@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "evaluate_output.h"
 #include "trajectory_inputs.h"
@@ -59,7 +60,7 @@ Json absolute_json(const AbsoluteErrors& absolute) {
   json["status"] = word_for(absolute.status);
   if (absolute.status != AlignmentStatus::ok) return json;
   add_similarity(absolute.reference_from_estimate, json);
-  json["turn_support"] = absolute.turn_support;
+  json["turn_uncertainty_deg"] = 180.0 / std::numbers::pi * absolute.turn_uncertainty;
   add_statistics("ate_", "m", absolute.ate_m, json);
   add_statistics("ate_", "deg", absolute.ate_deg, json);
   return json;

@@ -195,7 +195,7 @@ void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated) {
     fmt::print(stderr, "cairn: {}no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
                name, arguments.align, result.pairs.size(), explain(result.absolute.status));
   } else {
-    warn_of_free_turn(short_name(path), result.absolute.turn_support);
+    warn_of_free_turn(short_name(path), result.absolute.turn_uncertainty);
   }
 }
 

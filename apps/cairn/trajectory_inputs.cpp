@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
@@ -64,14 +65,15 @@ std::string_view explain(AlignmentStatus status) {
   return "";
 }
 
-void warn_of_free_turn(std::string_view name, double turn_support) {
-  constexpr double kHalf = 0.5;  // see Alignment::turn_support
-  if (turn_support >= kHalf) return;
+void warn_of_free_turn(std::string_view name, double turn_uncertainty) {
+  constexpr double kFreeDeg = 10;
+  const double degrees = 180.0 / std::numbers::pi * turn_uncertainty;
+  if (degrees <= kFreeDeg) return;
   fmt::print(
       stderr,
-      "cairn: {}: the poses lie nearly on one line, and what spreads across it agrees to {:.0f} % only: the\n"
-      "  turn about that line, and with it the rotation, is hardly determined.\n",
-      name, 100 * turn_support);
+      "cairn: {}: the poses lie nearly on one line: the turn about it, and with it every rotation after the\n"
+      "  alignment, is good to about {:.0f} deg only.\n",
+      name, degrees);
 }
 
 std::string short_name(const std::string& path) {

@@ -23,8 +23,9 @@ namespace cairn::app {
                                            double max_gap_s);
 /// Why there is no alignment; part of a sentence, empty for ok.
 [[nodiscard]] std::string_view explain(AlignmentStatus status);
-/// Says on stderr where the turn about the main line of the path rests on noise. `name` is the estimate's.
-void warn_of_free_turn(std::string_view name, double turn_support);
+/// Says on stderr where the turn about the main line of the path is hardly determined
+/// (Alignment::turn_uncertainty, radians). `name` is the estimate's.
+void warn_of_free_turn(std::string_view name, double turn_uncertainty);
 
 /// The last two parts of a path: "run/trajectory.txt".
 [[nodiscard]] std::string short_name(const std::string& path);

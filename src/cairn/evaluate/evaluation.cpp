@@ -18,7 +18,7 @@ bool is_finite(const Trajectory& trajectory) {
 AbsoluteErrors align(AlignmentMode mode, std::span<const PosePair> pairs) {
   if (mode == AlignmentMode::none) return {};
   const Alignment alignment = align_pairs(pairs, mode == AlignmentMode::sim3);
-  return {alignment.status, alignment.target_from_source, alignment.turn_support, {}, {}};
+  return {alignment.status, alignment.target_from_source, alignment.turn_uncertainty, {}, {}};
 }
 
 void summarize(const PoseErrors& errors, AbsoluteErrors& absolute) {

@@ -38,7 +38,7 @@ enum class EvaluationStatus {
 struct AbsoluteErrors {
   AlignmentStatus status = AlignmentStatus::ok;
   Similarity3 reference_from_estimate;   ///< the alignment, between the two worlds
-  double turn_support = 1;               ///< see Alignment; 1 where nothing was aligned
+  double turn_uncertainty = 0;           ///< see Alignment; 0 where nothing was aligned
   std::optional<ErrorStatistics> ate_m;  ///< nothing where there is no alignment
   std::optional<ErrorStatistics> ate_deg;
 };

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 
 #include "cairn/core/error.h"
 #include "cairn/evaluate/test_drive.h"
@@ -250,7 +253,7 @@ TEST(Evaluation, IsZeroForIdenticalTrajectories) {
   EXPECT_LT(found.absolute.ate_m->max, 1e-10);
   EXPECT_LT(found.drift->all.translation_percent, 1e-10);
   EXPECT_NEAR(found.sim3.reference_from_estimate.scale, 1, 1e-12);
-  EXPECT_NEAR(found.absolute.turn_support, 1, 1e-12);
+  EXPECT_LT(found.absolute.turn_uncertainty, 1e-9);
 }
 
 TEST(Evaluation, GoesWithoutRpeWhereTheDeltaIsTooLong) {
@@ -267,6 +270,22 @@ TEST(Evaluation, RefusesPosesThatAreNoNumbers) {
   Trajectory broken = trajectory_of(estimated_pose);
   broken[3].world_from_camera.translation.y() = std::nan("");
   EXPECT_THROW((void)evaluate_trajectory(broken, trajectory_of(reference_pose)), PreconditionError);
+}
+
+TEST(EvaluationSlow, TakesATenthOfASecondForTwentyThousandPoses) {
+  const Trajectory estimate = trajectory_of(estimated_drive, 1'000'000, 20'000),
+                   truth = trajectory_of(true_drive, 0, 20'000);
+  double best_s = HUGE_VAL;
+  for (int run = 0; run < 5; ++run) {  // the best, because others work on the machine, too
+    const auto begun = std::chrono::steady_clock::now();
+    const TrajectoryEvaluation found = evaluate_trajectory(estimate, truth);
+    best_s =
+        std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
+    ASSERT_EQ(found.pairs.size(), estimate.size());
+    ASSERT_TRUE(found.drift);
+  }
+  RecordProperty("milliseconds", std::to_string(1e3 * best_s));
+  EXPECT_LT(best_s, 0.1);
 }
 
 TEST(Evaluation, MatchesMotionCaptureWithItself) {

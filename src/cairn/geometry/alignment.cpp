@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cairn/core/error.h"
 
@@ -35,12 +36,8 @@ bool usable(Points points) {
   });
 }
 
-/// Singular values of a set's variance: squared spreads along its main axes, the largest first.
-Eigen::Vector3d squared_spreads(const Eigen::Matrix3d& variance) {
-  return Eigen::JacobiSVD<Eigen::Matrix3d>(variance).singularValues();
-}
-
-AlignmentStatus status_of(const Eigen::Vector3d& spreads, const Eigen::Vector3d& mean) {
+AlignmentStatus spread_of(const Eigen::Matrix3d& variance, const Eigen::Vector3d& mean) {
+  const Eigen::Vector3d spreads = Eigen::JacobiSVD<Eigen::Matrix3d>(variance).singularValues();
   constexpr double kRounding = 1e-14;  // of coordinates
   if (std::sqrt(spreads[0]) <= kRounding * (mean.norm() + 1e-6)) return AlignmentStatus::one_place;
   // squared because these are variances, of which the square roots are lengths
@@ -48,10 +45,13 @@ AlignmentStatus status_of(const Eigen::Vector3d& spreads, const Eigen::Vector3d&
   return AlignmentStatus::ok;
 }
 
-/// The part of the spread across the main line, of both sets, that corresponds.
-double share_across(double corresponding, const Eigen::Vector3d& source, const Eigen::Vector3d& target) {
-  const double across = std::sqrt((source[1] + source[2]) * (target[1] + target[2]));
-  return std::clamp(corresponding / across, 0.0, 1.0);
+/// Mean of the squared residuals' parts across `line`, a unit vector.
+double squared_residual_across(const Eigen::Vector3d& line, const Similarity3& target_from_source,
+                               Points source, Points target) {
+  double sum = 0;
+  for (std::size_t i = 0; i < source.size(); ++i)
+    sum += line.cross(target[i] - target_from_source * source[i]).squaredNorm();
+  return sum / static_cast<double>(source.size());
 }
 
 }  // namespace
@@ -71,12 +71,10 @@ Alignment align_points(Points source, Points target, bool with_scale) {
   if (source.size() < 3) return {};
   const Eigen::Vector3d source_mean = mean_of(source), target_mean = mean_of(target);
   const Eigen::Matrix3d source_variance = covariance(source, source_mean, source, source_mean);
-  const Eigen::Vector3d source_spreads = squared_spreads(source_variance);
-  const Eigen::Vector3d target_spreads =
-      squared_spreads(covariance(target, target_mean, target, target_mean));
+  const Eigen::Matrix3d target_variance = covariance(target, target_mean, target, target_mean);
   Alignment result;
-  result.status = status_of(source_spreads, source_mean);
-  if (result.status == AlignmentStatus::ok) result.status = status_of(target_spreads, target_mean);
+  result.status = spread_of(source_variance, source_mean);
+  if (result.status == AlignmentStatus::ok) result.status = spread_of(target_variance, target_mean);
   if (result.status != AlignmentStatus::ok) return result;
 
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance(target, target_mean, source, source_mean),
@@ -96,7 +94,9 @@ Alignment align_points(Points source, Points target, bool with_scale) {
   found.rotation = Eigen::Quaterniond(rotation).normalized();
   found.translation = target_mean - found.scale * (found.rotation * source_mean);
   result.rmse = rms_distance(found, source, target);
-  result.turn_support = share_across(corresponding, source_spreads, target_spreads);
+  // a turn by a small angle about the main line adds angle^2 * scale * corresponding to the mean square
+  const double across = squared_residual_across(svd.matrixU().col(0), found, source, target);
+  result.turn_uncertainty = std::min(std::numbers::pi, std::sqrt(across / (found.scale * corresponding)));
   return result;
 }
 

@@ -136,16 +136,16 @@ TEST(Alignment, RefusesCoordinatesThatAreNoNumbers) {
   }
 }
 
-TEST(Alignment, SaysWhetherTheTurnAboutTheMainLineIsFounded) {
+TEST(Alignment, SaysHowFarTheTurnAboutTheMainLineIsKnown) {
   Random random(4);
   Points source, noisy;
   for (int i = 0; i < 200; ++i) {
-    source.emplace_back(0.1 * i, 1e-4 * random.normal(), 1e-4 * random.normal());
-    noisy.emplace_back(0.1 * i, 1e-4 * random.normal(), 1e-4 * random.normal());
+    source.emplace_back(0.1 * i, 1e-2 * random.normal(), 1e-2 * random.normal());
+    noisy.emplace_back(0.1 * i, 1e-2 * random.normal(), 1e-2 * random.normal());
   }
-  const Similarity3 truth{1.0, rotation_exp({0.4, -0.2, 0.7}), {1, 2, 3}};
-  EXPECT_NEAR(align_points(source, mapped(truth, source), false).turn_support, 1, 1e-6);
-  EXPECT_LT(align_points(source, mapped(truth, noisy), false).turn_support, 0.5);
+  const Similarity3 truth{1.5, rotation_exp({0.4, -0.2, 0.7}), {1, 2, 3}};
+  EXPECT_LT(align_points(source, mapped(truth, source), true).turn_uncertainty, 1e-6);
+  EXPECT_GT(align_points(source, mapped(truth, noisy), true).turn_uncertainty, 0.5);
 }
 
 TEST(Alignment, MeasuresDistances) {

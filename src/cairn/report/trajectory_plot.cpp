@@ -43,7 +43,7 @@ Eigen::AlignedBox3d box_of(const TrajectoryPlot& plot) {
 /// One scale for all axes; a short axis is shown longer than it is, for the room that numbers and legend
 /// need.
 Layout make_layout(const TrajectoryPlot& plot) {
-  constexpr double kMaxWidth = 760, kMaxHeight = 640, kMinExtent = 120, kMargin = 1.1;
+  constexpr double kMaxWidth = 760, kMaxHeight = 540, kMinExtent = 120, kMargin = 1.1;
   constexpr double kSmallest = 1e-3;  // metres, for a camera that stands still
   const Eigen::AlignedBox3d box = box_of(plot);
   const Vector3d shown = kMargin * box.sizes().cwiseMax(kSmallest);
@@ -55,7 +55,7 @@ Layout make_layout(const TrajectoryPlot& plot) {
   const Vector3d half = 0.5 / scale * layout.extent;
   layout.low = box.center() - half;
   layout.high = box.center() + half;
-  constexpr double kPixelsPerStep = 62;
+  constexpr double kPixelsPerStep = 50;
   layout.step = nice_step(layout.extent.maxCoeff() / scale, layout.extent.maxCoeff() / kPixelsPerStep);
   return layout;
 }
