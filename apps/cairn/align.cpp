@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -67,6 +68,14 @@ std::vector<PosePair> read_pairs(const AlignArguments& arguments) {
   return pairs;
 }
 
+/// Three numbers with nine decimals; no -0.
+std::string columns(const Eigen::Vector3d& values) {
+  constexpr double kShown = 5e-10;
+  std::string text;
+  for (const double value : values) text += fmt::format(" {:13.9f}", std::abs(value) < kShown ? 0.0 : value);
+  return text;
+}
+
 void print_alignment(const Aligned& aligned) {
   const AlignArguments& arguments = aligned.arguments;
   const Similarity3& map = aligned.alignment.target_from_source;
@@ -74,16 +83,11 @@ void print_alignment(const Aligned& aligned) {
   const std::string association =
       arguments.reference.empty() ? "" : fmt::format(", stamps within {} s", arguments.max_gap_s);
   fmt::print("pairs      {}{}\n", aligned.pairs.size(), association);
-  fmt::print(
-      "transform  reference = {}R * estimate + t: it takes points of the estimate's world into the "
-      "reference's\n",
-      arguments.with_scale ? "s * " : "");
-  for (int row = 0; row < 3; ++row) {
-    fmt::print("{:<9} {:13.9f} {:13.9f} {:13.9f}\n", row == 0 ? "R" : "", R(row, 0), R(row, 1), R(row, 2));
-  }
-  fmt::print("{:<9} {:13.9f} {:13.9f} {:13.9f}  m\n", "t", map.translation.x(), map.translation.y(),
-             map.translation.z());
-  if (arguments.with_scale) fmt::print("{:<9} {:13.9f}\n", "s", map.scale);
+  fmt::print("transform  reference = {}R * estimate + t, from the estimate's world to the reference's\n",
+             arguments.with_scale ? "s * " : "");
+  for (int row = 0; row < 3; ++row) fmt::print("{:<10}{}\n", row == 0 ? "R" : "", columns(R.row(row)));
+  fmt::print("{:<10}{}  m\n", "t", columns(map.translation));
+  if (arguments.with_scale) fmt::print("{:<10} {:13.9f}\n", "s", map.scale);
   fmt::print("angle      {:.6f} deg\n", 180.0 / std::numbers::pi * rotation_angle(map.rotation));
   fmt::print("residual   {:.9f} m RMS before, {:.9f} m after\n", aligned.rms_before_m,
              aligned.alignment.rmse);

@@ -44,7 +44,7 @@ void declare_rpe(CLI::App& app, EvaluateArguments& arguments) {
                  "lengths of the RPE's intervals in --rpe-unit; in the other units they stay at 1")
       ->check(CLI::Range(1e-6, 1e6))
       ->delimiter(',')
-      ->expected(1)
+      ->allow_extra_args(false)
       ->type_name("N[,N...]")
       ->capture_default_str();
   app.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta: frames, metres (of path), seconds")

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/evaluate/chi_square.h"
 
-#include <math.h>  // lgamma_r: std::lgamma writes a global
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,7 +25,8 @@ double leading_factor(double a, double x) {
   constexpr double kLarge = 30;  // the first term left out of the series is 1 / (1680 a^7) = 3e-14
   if (a < kLarge) {
     int sign = 0;
-    return std::exp(a * std::log(x) - x - lgamma_r(a + 1, &sign));
+    // std::lgamma writes a global, which threads would share
+    return std::exp(a * std::log(x) - x - ::lgamma_r(a + 1, &sign));
   }
   const double excess = (x - a) / a;
   const double stirling = (1.0 / 12 - (1.0 / 360 - 1.0 / (1260 * a * a)) / (a * a)) / a;

@@ -38,9 +38,10 @@ struct Alignment {
   AlignmentStatus status = AlignmentStatus::too_few_points;
   Similarity3 target_from_source;  ///< the identity unless status is ok
   double rmse = 0;                 ///< root mean square of what remains, in the target's unit
-  /// How far the residuals can turn the result about the points' main line, radians up to pi: root mean square
-  /// of what remains across that line by how far the points spread across it. Where points lie nearly on a line,
-  /// only this spread fixes that turn. As if residuals did not average out, as those of drift do not.
+  /// How far the residuals can turn the result about the points' main line, radians up to pi: root mean
+  /// square of what remains across that line by how far the points spread across it. Where points lie nearly
+  /// on a line, only this spread fixes that turn. As if residuals did not average out, as those of drift do
+  /// not.
   double turn_uncertainty = 0;
 };
 
