@@ -54,7 +54,7 @@ double upper_by_fraction(double a, double x) {
     d = 1 / (numerator * d + b);
     c = b + numerator / c;
     fraction *= d * c;
-    if (std::abs(d * c - 1) <= 2 * kEpsilon) return leading_factor(a, x) * a * fraction;
+    if (std::abs(d * c - 1) <= 4 * kEpsilon) return leading_factor(a, x) * a * fraction;
   }
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/report/trajectory_plot.h"
 
-#include <fmt/format.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "cairn/report/error_chart.h"
 #include "cairn/report/path_view.h"
@@ -16,8 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLeft = 84, kTop = 84, kRight = 116, kBottom = 60;  // pixels
-constexpr double kGap = 34, kChartGap = 74, kLegendRow = 22;
+constexpr double kLeft = 84, kTop = 84, kRight = 40, kBottom = 60;  // pixels
+constexpr double kRightOfBar = 116, kGap = 34, kChartGap = 74, kLegendRow = 22;
 
 /// Where the views and what is below them lie, pixels.
 struct Layout {
@@ -105,13 +102,14 @@ std::string draw_trajectory_plot(const TrajectoryPlot& plot) {
   const Layout layout = make_layout(plot);
   const double largest_m = largest_error_m(plot);
   const double charts_top = kTop + layout.height() + kChartGap;
-  SvgCanvas canvas(kLeft + layout.width() + kRight, charts_top + error_charts_height() + kBottom);
+  const bool single = plot.estimates.size() == 1;
+  SvgCanvas canvas(kLeft + layout.width() + (single ? kRightOfBar : kRight),
+                   charts_top + error_charts_height() + kBottom);
   canvas.text({kLeft, 34}, plot.title, {.size = 17, .fill = kInk, .bold = true});
   canvas.text({kLeft, 57}, plot.subtitle, {.size = 13, .fill = kSoftInk});
   draw_views(plot, layout, largest_m, canvas);
   draw_legend(legend_of(plot.estimates), layout.legend(), {0, kLegendRow}, layout.extent.y(), canvas);
-  if (plot.estimates.size() == 1)
-    draw_color_bar(largest_m, {kLeft + layout.width() + 24, kTop}, layout.height(), canvas);
+  if (single) draw_color_bar(largest_m, {kLeft + layout.width() + 24, kTop}, layout.height(), canvas);
   draw_error_charts(plot.estimates, {kLeft, charts_top}, layout.width(), canvas);
   return canvas.finish();
 }
