@@ -54,16 +54,16 @@ TEST(PosePairs, OfNothingAreNothing) {
 
 class PosePairsFile : public ::testing::Test {
  protected:
-  void write(std::string_view text) const { write_file(path, text); }
-  ~PosePairsFile() override { std::filesystem::remove(path); }
+  void write(std::string_view text) const { write_file(path_, text); }
+  ~PosePairsFile() override { std::filesystem::remove(path_); }
 
-  const std::filesystem::path path =
+  const std::filesystem::path path_ =
       std::filesystem::temp_directory_path() / fmt::format("cairn_pose_pairs_{}.txt", ::getpid());
 };
 
 TEST_F(PosePairsFile, IsReadInItsOrder) {
   write("2 1 2 3 0 0 0 1  2.5 4 5 6 0 0 1 0\n# comment\n1 0 0 0 0 0 0 1 7 0 0 0 1 0 0 0\n");
-  const std::vector<PosePair> pairs = read_pose_pairs(path);
+  const std::vector<PosePair> pairs = read_pose_pairs(path_);
   ASSERT_EQ(pairs.size(), 2U);
   EXPECT_EQ(pairs[0].stamp_ns, 2'000'000'000);
   EXPECT_EQ(pairs[0].estimate.translation, Eigen::Vector3d(1, 2, 3));
@@ -77,7 +77,7 @@ TEST_F(PosePairsFile, IsRefusedWithTheLine) {
        {"# nothing\n", "1 0 0 0 0 0 0 1\n", "1 0 0 0 0 0 0 1 1 0 0 nan 0 0 0 1\n",
         "1 0 0 0 0 0 0 1 1 0 0 1e200 0 0 0 1\n", "1 0 0 0 0 0 0 1 1 0 0 0 0 0 0 9\n"}) {
     write(text);
-    EXPECT_THROW((void)read_pose_pairs(path), InputError) << text;
+    EXPECT_THROW((void)read_pose_pairs(path_), InputError) << text;
   }
 }
 

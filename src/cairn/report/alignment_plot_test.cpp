@@ -20,8 +20,8 @@ AlignmentPlot circle(int normal) {
     place[(normal + 1) % 3] = 2 * std::cos(0.1 * i);
     place[(normal + 2) % 3] = 2 * std::sin(0.1 * i);
     plot.reference.push_back(place);
-    plot.estimate_before.push_back(place + Eigen::Vector3d(3, 4, 0));
-    plot.estimate_after.push_back(1.01 * place);
+    plot.estimate_before.emplace_back(place + Eigen::Vector3d(3, 4, 0));
+    plot.estimate_after.emplace_back(1.01 * place);
   }
   return plot;
 }
