@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/stereo_disparity.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,9 +58,10 @@ class Window {
     constexpr double kMinDeterminant = 1e-6;  // of the matrix scaled to a diagonal of ones
     const Vector scale = normal_.diagonal().cwiseMax(1e-9).cwiseSqrt().cwiseInverse();
     const Matrix scaled = scale.asDiagonal() * normal_ * scale.asDiagonal();
-    const Eigen::PartialPivLU<Matrix> factors(scaled);
-    if (!(factors.determinant() > kMinDeterminant)) return false;
-    inverse_ = scale.asDiagonal() * factors.inverse() * scale.asDiagonal();
+    const Eigen::LLT<Matrix> factors(scaled);
+    const double root = factors.matrixLLT().diagonal().prod();
+    if (factors.info() != Eigen::Success || !(root * root > kMinDeterminant)) return false;
+    inverse_ = scale.asDiagonal() * factors.solve(Matrix::Identity()) * scale.asDiagonal();
     return true;
   }
 

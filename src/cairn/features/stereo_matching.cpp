@@ -103,7 +103,8 @@ class StereoSearch {
                                                std::vector<Best>& of_left) const {
     std::vector<Best> of_right(right_.keypoints.size());
     Scratch scratch{std::vector<std::int32_t>(packed_.groups() * kPackedLanes),
-                    std::vector<std::uint32_t>(rows_.order.size() + 1)};
+                    std::vector<std::uint32_t>(rows_.order.size()),
+                    std::vector<std::uint32_t>(rows_.order.size())};
     for (std::size_t l = begin; l < end; ++l)
       if (is_usable(left_.keypoints[l])) search_band(l, of_left[l], of_right, scratch);
     return of_right;
@@ -112,7 +113,7 @@ class StereoSearch {
   /// Of one block, which is worked on by one thread.
   struct Scratch {
     std::vector<std::int32_t> distances;
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> may_match, places;
   };
 
   void search_band(std::size_t l, Best& best, std::vector<Best>& of_right, Scratch& scratch) const {
@@ -125,7 +126,7 @@ class StereoSearch {
     const auto last = static_cast<std::size_t>(to - rows_.v.begin());
     const std::size_t group = first / kPackedLanes, end_group = (last + kPackedLanes - 1) / kPackedLanes;
     packed_.measure(left_.descriptors, l, 1, group, end_group - group, scratch.distances.data());
-    const std::size_t count = select(keypoint, first, last, scratch.places.data());
+    const std::size_t count = select(keypoint, first, last, scratch);
     for (std::size_t i = 0; i < count; ++i) {
       const std::int32_t distance = scratch.distances[scratch.places[i] - group * kPackedLanes];
       const std::int32_t r = rows_.order[scratch.places[i]];
@@ -134,22 +135,32 @@ class StereoSearch {
     }
   }
 
-  /// Writes the places in [first, last) that may match, and returns how many. Without branches: about every
-  /// second one may, in no order.
-  std::size_t select(const Keypoint& left, std::size_t first, std::size_t last, std::uint32_t* places) const {
-    std::size_t count = 0;
-    for (std::size_t i = first; i < last; ++i) {
-      const float reach = row_band_ * std::max(left.sigma_px, rows_.sigma[i]);
-      const float disparity = left.u - rows_.u[i], larger = std::max(left.size, rows_.size[i]),
-                  smaller = std::min(left.size, rows_.size[i]);
-      const unsigned near_row = std::abs(left.v - rows_.v[i]) <= reach ? 1 : 0;
-      const unsigned near_enough = disparity >= min_disparity_ - reach ? 1 : 0;
-      const unsigned far_enough = disparity <= max_disparity_ + reach ? 1 : 0;
-      const unsigned alike = larger <= max_size_ratio_ * smaller ? 1 : 0;
-      places[count] = static_cast<std::uint32_t>(i);
-      count += near_row & near_enough & far_enough & alike;
+  /// Writes the places in [first, last) that may match, and returns how many. Two plain loops, of which the
+  /// first works on several places at once and the second has no branch: whether a place may match cannot be
+  /// predicted.
+  std::size_t select(const Keypoint& left, std::size_t first, std::size_t last, Scratch& scratch) const {
+    const std::size_t count = last - first;
+    const float* u = rows_.u.data() + first;
+    const float* v = rows_.v.data() + first;
+    const float* size = rows_.size.data() + first;
+    const float* sigma = rows_.sigma.data() + first;
+    std::uint32_t* may_match = scratch.may_match.data();
+    for (std::size_t i = 0; i < count; ++i) {
+      const float reach = row_band_ * (sigma[i] > left.sigma_px ? sigma[i] : left.sigma_px);
+      const float disparity = left.u - u[i], rows = std::abs(left.v - v[i]);
+      const std::uint32_t near_row = rows <= reach ? 1 : 0;
+      const std::uint32_t in_range = static_cast<std::uint32_t>(disparity >= min_disparity_ - reach ? 1 : 0) &
+                                     static_cast<std::uint32_t>(disparity <= max_disparity_ + reach ? 1 : 0);
+      const std::uint32_t alike = static_cast<std::uint32_t>(size[i] <= max_size_ratio_ * left.size ? 1 : 0) &
+                                  static_cast<std::uint32_t>(left.size <= max_size_ratio_ * size[i] ? 1 : 0);
+      may_match[i] = near_row & in_range & alike;
     }
-    return count;
+    std::size_t selected = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      scratch.places[selected] = static_cast<std::uint32_t>(first + i);
+      selected += may_match[i];
+    }
+    return selected;
   }
 
   const Features& left_;
