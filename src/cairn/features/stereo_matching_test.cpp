@@ -83,8 +83,9 @@ TEST(MatchStereo, the_search_agrees_with_the_definition) {
         const bool mutual = r >= 0 && slow_nearest(right, static_cast<std::size_t>(r), left, false,
                                                    options) == static_cast<std::int32_t>(l);
         const double disparity =
-            r >= 0 ? static_cast<double>(left.keypoints[l].u - right.keypoints[static_cast<std::size_t>(r)].u)
-                   : 0;
+            r < 0 ? 0
+                  : static_cast<double>(left.keypoints[l].u) -
+                        static_cast<double>(right.keypoints[static_cast<std::size_t>(r)].u);
         const bool in_range =
             disparity >= kRig.disparity(options.max_depth) && disparity <= kRig.disparity(options.min_depth);
         ASSERT_EQ(matches[l].has_value(), mutual && in_range) << "left feature " << l;
