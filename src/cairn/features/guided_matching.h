@@ -31,11 +31,11 @@ struct EpipolarMatchOptions {
 };
 
 /// Matches of two views with a known relative pose, ordered by query: nearest among the trains that show a
-/// point on the query's ray, in front of both cameras and within the depth limits. For the query's ray r (z = 1)
-/// and depth z, the train's pixel is that of R r + t / z; the z that suits a train best (least squares, within
-/// the limits) must leave it at most the band away. This holds for a pure rotation, too, where the line is a
-/// point. A keypoint that is not finite matches nothing. The same bits at any number of threads and on every
-/// processor. PreconditionError where a camera has distortion or the descriptors differ.
+/// point on the query's ray, in front of both cameras and within the depth limits. For the query's ray r (z =
+/// 1) and depth z, the train's pixel is that of R r + t / z; the z that suits a train best (least squares,
+/// within the limits) must leave it at most the band away. This holds for a pure rotation, too, where the
+/// line is a point. A keypoint that is not finite matches nothing. The same bits at any number of threads and
+/// on every processor. PreconditionError where a camera has distortion or the descriptors differ.
 [[nodiscard]] std::vector<Match> match_along_epipolar_lines(const CameraFeatures& query,
                                                             const CameraFeatures& train,
                                                             const Rigid3& train_from_query,

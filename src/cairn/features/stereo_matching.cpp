@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cairn/core/error.h"
 #include "cairn/features/matching_candidates.h"
@@ -12,16 +13,17 @@
 namespace cairn {
 namespace {
 
-bool is_usable(const Keypoint& keypoint) {
-  return std::isfinite(keypoint.u) && std::isfinite(keypoint.v) && std::isfinite(keypoint.size) &&
-         std::isfinite(keypoint.sigma_px) && keypoint.sigma_px > 0;
+/// Has finite numbers and lies in the image.
+bool is_usable(const Keypoint& keypoint, int height) {
+  return std::isfinite(keypoint.u) && std::isfinite(keypoint.size) && std::isfinite(keypoint.sigma_px) &&
+         keypoint.sigma_px > 0 && keypoint.v >= -0.5F && keypoint.v < static_cast<float>(height) - 0.5F;
 }
 
 /// Indices of the usable keypoints, from the top of the image down.
-std::vector<std::int32_t> by_row(const std::vector<Keypoint>& keypoints) {
+std::vector<std::int32_t> by_row(const std::vector<Keypoint>& keypoints, int height) {
   std::vector<std::int32_t> order;
   for (std::size_t i = 0; i < keypoints.size(); ++i)
-    if (is_usable(keypoints[i])) order.push_back(static_cast<std::int32_t>(i));
+    if (is_usable(keypoints[i], height)) order.push_back(static_cast<std::int32_t>(i));
   std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
     const float row_a = keypoints[static_cast<std::size_t>(a)].v,
                 row_b = keypoints[static_cast<std::size_t>(b)].v;
@@ -33,42 +35,54 @@ std::vector<std::int32_t> by_row(const std::vector<Keypoint>& keypoints) {
 /// Right keypoints from the top of the image down, each quantity by itself: most are looked at only to be
 /// passed over.
 struct Rows {
-  explicit Rows(const std::vector<Keypoint>& keypoints) : order(by_row(keypoints)) {
+  Rows(const std::vector<Keypoint>& keypoints, int height) : order(by_row(keypoints, height)) {
     for (const std::int32_t i : order) {
       const Keypoint& keypoint = keypoints[static_cast<std::size_t>(i)];
       u.push_back(keypoint.u), v.push_back(keypoint.v);
       size.push_back(keypoint.size), sigma.push_back(keypoint.sigma_px);
       max_sigma = std::max(max_sigma, keypoint.sigma_px);
     }
+    for (int row = 0; row <= height; ++row)
+      begins.push_back(static_cast<std::size_t>(
+          std::lower_bound(v.begin(), v.end(), static_cast<float>(row)) - v.begin()));
+    begins.front() = 0;  // half a pixel above the first row is in the image
+  }
+
+  /// Begin and end of the places that hold all keypoints between two heights, and few others.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> between(float top, float bottom) const {
+    const auto last = static_cast<float>(begins.size() - 1);
+    const auto first_row = static_cast<std::size_t>(std::clamp(std::floor(top), 0.F, last));
+    const auto end_row = static_cast<std::size_t>(std::clamp(std::floor(bottom) + 1, 0.F, last));
+    return {begins[first_row], begins[end_row]};
   }
 
   std::vector<std::int32_t> order;
   std::vector<float> u, v, size, sigma;
+  std::vector<std::size_t> begins;  // of the keypoints at or below each row
   float max_sigma = 0;
 };
 
 /// Which right features a left one may match.
 class StereoSearch {
  public:
-  StereoSearch(const Rig& rig, const Features& left, const Features& right, const StereoMatchOptions& options)
-      : left_(left),
+  StereoSearch(const Rig& rig, const StereoSide& left, const StereoSide& right,
+               const StereoMatchOptions& options)
+      : left_(left.features),
+        height_(left.image.height()),
         row_band_(static_cast<float>(options.row_band)),
         max_size_ratio_(static_cast<float>(options.max_size_ratio)),
         min_disparity_(static_cast<float>(rig.disparity(options.max_depth))),
         max_disparity_(static_cast<float>(rig.disparity(options.min_depth))),
-        rows_(right.keypoints),
-        packed_(right.descriptors, rows_.order) {}
+        rows_(right.features.keypoints, height_),
+        packed_(right.features.descriptors, rows_.order) {}
 
   /// The right features that left feature l may match.
   void find(std::size_t l, Candidates& candidates) const {
     const Keypoint& keypoint = left_.keypoints[l];
-    if (!is_usable(keypoint)) return;
+    if (!is_usable(keypoint, height_)) return;
     const float reach = row_band_ * std::max(keypoint.sigma_px, rows_.max_sigma);
-    const auto from = std::lower_bound(rows_.v.begin(), rows_.v.end(), keypoint.v - reach);
-    const auto to = std::upper_bound(from, rows_.v.end(), keypoint.v + reach);
-    if (from == to) return;
-    const auto first = static_cast<std::size_t>(from - rows_.v.begin());
-    const auto last = static_cast<std::size_t>(to - rows_.v.begin());
+    const auto [first, last] = rows_.between(keypoint.v - reach, keypoint.v + reach);
+    if (first == last) return;
     const std::size_t group = first / kPackedLanes, end_group = (last + kPackedLanes - 1) / kPackedLanes;
     candidates.tile.resize((end_group - group) * kPackedLanes);
     packed_.measure(left_.descriptors, l, 1, group, end_group - group, candidates.tile.data());
@@ -111,6 +125,7 @@ class StereoSearch {
   }
 
   const Features& left_;
+  int height_;
   float row_band_, max_size_ratio_, min_disparity_, max_disparity_;
   Rows rows_;
   PackedDescriptors packed_;
@@ -164,7 +179,7 @@ std::vector<std::optional<StereoMatch>> match_stereo(const Rig& rig, const Stere
   std::vector<std::optional<StereoMatch>> matches(left.features.keypoints.size());
   if (left.features.keypoints.empty() || right.features.keypoints.empty()) return matches;
   require_comparable(left.features.descriptors, right.features.descriptors);
-  const StereoSearch search(rig, left.features, right.features, options);
+  const StereoSearch search(rig, left, right, options);
   const MatchOptions limits{options.max_distance, options.max_ratio, true};
   const auto found = match_candidates(
       matches.size(), right.features.keypoints.size(), left.features.descriptors.norm(),

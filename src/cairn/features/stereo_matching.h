@@ -31,8 +31,8 @@ struct StereoMatch {
   float distance = 0;             ///< of the descriptors
   double disparity = 0;           ///< pixels, at the left keypoint; above 0 and within the depth limits
   double sigma_disparity_px = 0;  ///< its standard deviation
-  bool measured =
-      false;  ///< on the images; else the keypoints' difference: at borders, or with too little texture
+  /// On the images; else the keypoints' difference: at borders, or with too little texture.
+  bool measured = false;
 };
 
 struct StereoSide {
@@ -43,8 +43,9 @@ struct StereoSide {
 /// For each left feature its right one in a rectified pair, or nothing: the nearest in a band of rows and a
 /// range of disparities, which has the left one as its nearest, too (ties go to the lower index); then its
 /// disparity is measured on the images (stereo_disparity.h). No result holds a NaN or an infinity; a keypoint
-/// that is not finite, or whose sigma is not above 0, is matched with nothing. The same bits at any number of
-/// threads and on every processor. PreconditionError where the descriptors or the images' sizes differ.
+/// that is not finite or not in its image, or whose sigma is not above 0, is matched with nothing. The same
+/// bits at any number of threads and on every processor. PreconditionError where the descriptors or the
+/// images' sizes differ.
 [[nodiscard]] std::vector<std::optional<StereoMatch>> match_stereo(const Rig& rig, const StereoSide& left,
                                                                    const StereoSide& right,
                                                                    const StereoMatchOptions& options,
