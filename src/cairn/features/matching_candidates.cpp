@@ -8,35 +8,58 @@
 namespace cairn {
 namespace {
 
-using NearestOf = std::vector<NearestCandidate>;
+/// A distance and an index as one number: of equal distances the one with the lower index is less.
+using Key = std::uint64_t;
+constexpr Key kNone = ~Key{0};
+
+Key key_of(std::int32_t distance, std::size_t index) {
+  return static_cast<Key>(distance) << 32 | index;
+}
+std::int32_t distance_of(Key key) {
+  return static_cast<std::int32_t>(key >> 32);
+}
+std::int32_t index_of(Key key) {
+  return static_cast<std::int32_t>(key & 0xFFFFFFFFU);
+}
+
+struct TwoNearest {
+  Key first = kNone, second = kNone;
+
+  /// Without a branch, which could not be predicted.
+  void see(Key key) {
+    second = std::min(second, std::max(first, key));
+    first = std::min(first, key);
+  }
+};
 
 /// Writes the nearest of queries [begin, end), and returns of each train the nearest of those queries.
-NearestOf search_block(std::size_t begin, std::size_t end, std::size_t trains, const FindCandidates& find,
-                       NearestOf& of_query) {
-  NearestOf of_train(trains);
+std::vector<Key> search_block(std::size_t begin, std::size_t end, std::size_t trains,
+                              const FindCandidates& find, std::vector<TwoNearest>& of_query) {
+  std::vector<Key> of_train(trains, kNone);
   Candidates candidates;
   for (std::size_t q = begin; q < end; ++q) {
     candidates.clear();
     find(q, candidates);
+    TwoNearest nearest;
     for (std::size_t i = 0; i < candidates.trains.size(); ++i) {
-      const std::int32_t train = candidates.trains[i], distance = candidates.distances[i];
-      of_query[q].see(distance, train);
-      of_train[static_cast<std::size_t>(train)].see(distance, static_cast<std::int32_t>(q));
+      const auto train = static_cast<std::size_t>(candidates.trains[i]);
+      nearest.see(key_of(candidates.distances[i], train));
+      of_train[train] = std::min(of_train[train], key_of(candidates.distances[i], q));
     }
+    of_query[q] = nearest;
   }
   return of_train;
 }
 
-void merge(NearestOf& nearest, const NearestOf& others) {
-  for (std::size_t i = 0; i < nearest.size(); ++i)
-    if (others[i].index >= 0) nearest[i].see(others[i].distance, others[i].index);
+void merge(std::vector<Key>& nearest, const std::vector<Key>& others) {
+  for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = std::min(nearest[i], others[i]);
 }
 
-bool is_believed(Norm norm, const NearestCandidate& nearest, const MatchOptions& options) {
-  const auto first = static_cast<double>(match_distance(norm, nearest.distance));
+bool is_believed(Norm norm, const TwoNearest& nearest, const MatchOptions& options) {
+  const auto first = static_cast<double>(match_distance(norm, distance_of(nearest.first)));
   const bool unrivalled =
-      options.max_ratio == 0 || nearest.second_distance == kNoDistance ||
-      first < options.max_ratio * static_cast<double>(match_distance(norm, nearest.second_distance));
+      options.max_ratio == 0 || nearest.second == kNone ||
+      first < options.max_ratio * static_cast<double>(match_distance(norm, distance_of(nearest.second)));
   return unrivalled && first <= options.max_distance;
 }
 
@@ -61,18 +84,19 @@ std::vector<std::optional<Match>> match_candidates(std::size_t queries, std::siz
   constexpr std::size_t kFewest = 128, kMostBlocks = 64;  // memory for the trains of each block stays small
   const std::size_t grain = std::max(kFewest, queries / kMostBlocks + 1);
   const std::size_t blocks = (queries + grain - 1) / grain;
-  NearestOf of_query(queries);
-  auto of_train = executor.map<NearestOf>(blocks, [&](std::size_t block) {
+  std::vector<TwoNearest> of_query(queries);
+  auto of_train = executor.map<std::vector<Key>>(blocks, [&](std::size_t block) {
     return search_block(block * grain, std::min(queries, (block + 1) * grain), trains, find, of_query);
   });
   for (std::size_t block = 1; block < blocks; ++block) merge(of_train[0], of_train[block]);
   std::vector<std::optional<Match>> matches(queries);
   for (std::size_t q = 0; q < queries; ++q) {
-    const NearestCandidate& nearest = of_query[q];
-    const auto query = static_cast<std::int32_t>(q);
-    if (nearest.index < 0 || !is_believed(norm, nearest, options)) continue;
-    if (options.mutual && of_train[0][static_cast<std::size_t>(nearest.index)].index != query) continue;
-    matches[q] = Match{query, nearest.index, match_distance(norm, nearest.distance)};
+    const TwoNearest& nearest = of_query[q];
+    if (nearest.first == kNone || !is_believed(norm, nearest, options)) continue;
+    const Match match{static_cast<std::int32_t>(q), index_of(nearest.first),
+                      match_distance(norm, distance_of(nearest.first))};
+    const Key of_match = of_train[0][static_cast<std::size_t>(match.train)];
+    if (!options.mutual || index_of(of_match) == match.query) matches[q] = match;
   }
   return matches;
 }

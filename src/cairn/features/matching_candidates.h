@@ -9,7 +9,6 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/features/features.h"
-#include "cairn/features/kernels/nearest_kernels.h"
 #include "cairn/features/matching.h"
 
 namespace cairn {
@@ -27,21 +26,6 @@ struct Candidates {
   }
   /// Distances from row `query` of `queries` to the rows `trains` of `descriptors`.
   void measure(const Descriptors& queries, std::size_t query, const Descriptors& descriptors);
-};
-
-/// The nearest of what it has seen, of equal ones that with the lower index, and the second nearest's
-/// distance.
-struct NearestCandidate {
-  std::int32_t distance = kNoDistance, index = -1, second_distance = kNoDistance;
-
-  void see(std::int32_t seen_distance, std::int32_t seen_index) {
-    if (seen_distance < distance || (seen_distance == distance && seen_index < index)) {
-      second_distance = distance;
-      distance = seen_distance, index = seen_index;
-    } else if (seen_distance < second_distance) {
-      second_distance = seen_distance;
-    }
-  }
 };
 
 /// Fills the candidates of a query; they are empty before. Called from several threads.

@@ -114,11 +114,13 @@ struct Fit {
   double squares = 0;  // what does not fit
 };
 
-Fit settle(const Window& window, double disparity) {
+/// Gives up where it leaves the reach around the guess.
+Fit settle(const Window& window, double begin, double guess, double reach_px) {
   constexpr int kMaxSteps = 10;
   constexpr double kSettled = 0.02;  // pixels
+  constexpr double kMaxBeyond = 1;   // pixels: the guess's reach is a standard deviation, not a wall
   Fit fit;
-  fit.disparity = disparity;
+  fit.disparity = begin;
   for (int step = 0; step < kMaxSteps && !fit.settled; ++step) {
     if (!window.has_room(fit.disparity, fit.slope_v)) return fit;
     const DisparityResiduals residuals = window.compare(fit.disparity, fit.slope_v);
@@ -128,7 +130,8 @@ Fit settle(const Window& window, double disparity) {
     fit.slope_v -= solved[slope_v];
     fit.slope_u = -solved[slope_u];
     fit.squares = std::max(0.0, residuals.squares - projected.dot(solved));
-    if (!(std::abs(fit.slope_v) <= kMaxSlope)) return fit;
+    const bool within = std::abs(fit.disparity - guess) <= reach_px + kMaxBeyond;
+    if (!within || !(std::abs(fit.slope_v) <= kMaxSlope)) return fit;
     fit.settled = std::abs(solved[along_row]) < kSettled;
   }
   return fit;
@@ -160,9 +163,8 @@ DisparityResult measure_disparity(const GrayImage& left, const GrayImage& right,
   Window window(left, right, column, row);
   if (!window.has_room(guess, 0)) return {DisparityStatus::no_room, {}};
   if (!window.invert()) return {DisparityStatus::no_texture, {}};
-  const Fit fit = settle(window, search(window, guess, reach_px));
-  if (!fit.settled || !(std::abs(fit.disparity - guess) <= reach_px + 1))
-    return {DisparityStatus::not_settled, {}};
+  const Fit fit = settle(window, search(window, guess, reach_px), guess, reach_px);
+  if (!fit.settled) return {DisparityStatus::not_settled, {}};
   return {DisparityStatus::measured, summarise(window, fit, u - column, v - row)};
 }
 

@@ -16,7 +16,7 @@ enum class DisparityStatus {
   measured,
   no_room,      ///< the window would leave an image
   no_texture,   ///< the window does not decide
-  not_settled,  ///< the best place is further from the guess than `reach_px`, or it would not settle
+  not_settled,  ///< the best place is more than a pixel beyond the reach, or it would not settle
 };
 
 struct DisparityResult {
