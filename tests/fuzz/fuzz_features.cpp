@@ -161,6 +161,7 @@ void fuzz(Input input) {
 }  // namespace
 }  // namespace cairn
 
+// libFuzzer's name, NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   cairn::fuzz({data, size});
   return 0;
