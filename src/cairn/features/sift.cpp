@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/features/sift.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "cairn/core/error.h"
+#include "cairn/features/sift_descriptor.h"
+#include "cairn/features/sift_orientation.h"
+#include "cairn/features/sift_scale_space.h"
+#include "cairn/features/sift_selection.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kGrain = 32;  // points that one thread works on at a time
+
+/// A point with one of its directions.
+struct Oriented {
+  ScalePoint point;
+  float angle_deg = 0;
+};
+
+/// Scale spaces between their uses: to take fresh memory from the system costs as much time as to fill it.
+class ScaleSpacePool {
+ public:
+  explicit ScaleSpacePool(int layers) : layers_(layers) {}
+
+  std::unique_ptr<ScaleSpace> take(int width, int height) {
+    const std::lock_guard lock(mutex_);
+    const auto fits = [&](const auto& space) { return space->width() == width && space->height() == height; };
+    const auto found = std::find_if(idle_.begin(), idle_.end(), fits);
+    if (found == idle_.end()) {
+      idle_.clear();  // of other sizes: the images have changed
+      return std::make_unique<ScaleSpace>(width, height, layers_);
+    }
+    std::unique_ptr<ScaleSpace> space = std::move(*found);
+    idle_.erase(found);
+    return space;
+  }
+
+  void give_back(std::unique_ptr<ScaleSpace> space) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(space));
+  }
+
+ private:
+  int layers_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<ScaleSpace>> idle_;
+};
+
+Keypoint keypoint_of(const ScaleSpace& space, const Oriented& oriented) {
+  const ScalePoint& point = oriented.point;
+  const double pixel = ScaleSpace::pixel_size(point.octave);
+  const double sigma = pixel * space.sigma(static_cast<double>(point.level));
+  return {static_cast<float>(pixel * static_cast<double>(point.x)),
+          static_cast<float>(pixel * static_cast<double>(point.y)),
+          static_cast<float>(4 * kSiftCellSigmas * sigma),
+          oriented.angle_deg,
+          point.response,
+          static_cast<float>(std::max(1.0, sigma / kSiftSigma))};
+}
+
+class SiftExtractor : public Extractor {
+ public:
+  explicit SiftExtractor(const SiftOptions& options) : options_(options), pool_(options.layers) {}
+
+  [[nodiscard]] Features extract(const GrayImage& image, const Executor& executor) const override {
+    std::unique_ptr<ScaleSpace> space = pool_.take(image.width(), image.height());
+    space->build(image, executor);
+    std::vector<ScalePoint> points = find_sift_extrema(*space, options_.extrema, executor);
+    points = select_spread(*space, std::move(points), options_.count);
+    const std::vector<Oriented> oriented = orient(*space, points, executor);
+    Features features = describe(*space, oriented, executor);
+    pool_.give_back(std::move(space));
+    return features;
+  }
+
+ private:
+  /// One for each direction of each point, no more than wanted.
+  [[nodiscard]] std::vector<Oriented> orient(const ScaleSpace& space, const std::vector<ScalePoint>& points,
+                                             const Executor& executor) const {
+    std::vector<std::vector<float>> angles(points.size());
+    executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) angles[i] = sift_orientations(space, points[i]);
+    });
+    std::vector<Oriented> oriented;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (const float angle : angles[i]) oriented.push_back({points[i], angle});
+    oriented.resize(std::min(oriented.size(), static_cast<std::size_t>(options_.count)));
+    return oriented;
+  }
+
+  [[nodiscard]] Features describe(const ScaleSpace& space, const std::vector<Oriented>& oriented,
+                                  const Executor& executor) const {
+    Features features{std::vector<Keypoint>(oriented.size()),
+                      Descriptors(Norm::l2, kSiftDescriptorBytes, oriented.size())};
+    executor.for_each_chunk(oriented.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        features.keypoints[i] = keypoint_of(space, oriented[i]);
+        describe_sift(space, oriented[i].point, oriented[i].angle_deg, options_.root,
+                      features.descriptors.row(i));
+      }
+    });
+    return features;
+  }
+
+  SiftOptions options_;
+  mutable ScaleSpacePool pool_;
+};
+
+}  // namespace
+
+void SiftOptions::validate() const {
+  const auto check = [](const char* option, bool good, const char* expected, double found) {
+    if (!good)
+      throw InputError({option, 0, expected, fmt::format("{}", found), "See the defaults in SiftOptions."});
+  };
+  constexpr int kMostLayers = 10;
+  check("count", count >= 1, "at least 1 feature per image", count);
+  check("layers", layers >= 1 && layers <= kMostLayers, "1 to 10 layers per octave", layers);
+  check("contrast", extrema.contrast > 0, "a contrast above 0", extrema.contrast);
+  check("edge_ratio", extrema.edge_ratio >= 1, "a ratio of at least 1", extrema.edge_ratio);
+}
+
+std::unique_ptr<Extractor> make_sift_extractor(const SiftOptions& options) {
+  options.validate();
+  return std::make_unique<SiftExtractor>(options);
+}
+
+}  // namespace cairn

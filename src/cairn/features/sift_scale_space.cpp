@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/features/sift_scale_space.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cairn/core/error.h"
+#include "cairn/features/kernels/blur_kernels.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kSmallestSide = 16;     // octave pixels: below, no keypoint has room for its surroundings
+constexpr double kCameraSigma = 0.5;  // pixels: blur that a sharp image has (Lowe 2004, section 3.3)
+constexpr double kTruncation = 3;     // standard deviations on either side
+constexpr int kStripRows = 16;        // a strip's smoothed columns stay in the cache
+constexpr int kTileColumns = 256;     // with the rows that a strip needs: 35 KB
+constexpr int kUpsampleReach = 2;     // image pixels: 3 standard deviations of the first blur
+
+int round_up(int value, int step) {
+  return (value + step - 1) / step * step;
+}
+
+double variance_of(const std::vector<double>& weights) {
+  double sum = weights[0], squares = 0;
+  for (std::size_t k = 1; k < weights.size(); ++k) {
+    sum += 2 * weights[k];
+    squares += 2 * weights[k] * static_cast<double>(k * k);
+  }
+  return squares / sum;
+}
+
+std::vector<double> sampled_gaussian(double sigma, int radius) {
+  std::vector<double> weights;
+  for (int k = 0; k <= radius; ++k) weights.push_back(std::exp(-k * k / (2 * sigma * sigma)));
+  return weights;
+}
+
+/// Weights of the centre and of its neighbours on one side, of sum 1. Sampled and truncated, a Gaussian is
+/// narrower than it should be; it is widened until its variance is right, so that scales are.
+std::vector<float> gaussian_weights(double sigma) {
+  const int radius = static_cast<int>(std::lround(kTruncation * sigma));
+  constexpr int kRounds = 10;
+  double widened = sigma;
+  for (int round = 0; round < kRounds; ++round)
+    widened *= sigma / std::sqrt(variance_of(sampled_gaussian(widened, radius)));
+  const std::vector<double> weights = sampled_gaussian(widened, radius);
+  double sum = weights[0];
+  for (std::size_t k = 1; k < weights.size(); ++k) sum += 2 * weights[k];
+  std::vector<float> normalised;
+  for (const double weight : weights) normalised.push_back(static_cast<float>(weight / sum));
+  return normalised;
+}
+
+/// A row with room on both sides, where its outermost values go on.
+class PaddedRow {
+ public:
+  PaddedRow(int width, int margin)
+      : width_(width),
+        margin_(round_up(margin, kBlurStep)),
+        values_(static_cast<std::size_t>(round_up(width, kBlurStep) + 2 * margin_)) {}
+  [[nodiscard]] float* data() { return values_.data() + margin_; }
+  void pad() {
+    std::fill(values_.begin(), values_.begin() + margin_, *data());
+    std::fill(values_.begin() + margin_ + width_, values_.end(), data()[width_ - 1]);
+  }
+
+ private:
+  int width_, margin_;
+  std::vector<float> values_;
+};
+
+const float* clamped_row(const ScaleLevel& level, int v) {
+  return level.row(std::clamp(v, 0, level.height - 1));
+}
+
+std::size_t strip_count(int height) {
+  return static_cast<std::size_t>((height + kStripRows - 1) / kStripRows);
+}
+
+/// Smoothes along columns: row v of `from`, columns [begin, end), to `out`.
+void blur_columns(const ScaleLevel& from, const std::vector<float>& weights, int v, int begin, int end,
+                  float* out) {
+  constexpr std::size_t kMaxRadius = 64;
+  std::array<const float*, kMaxRadius> above{}, below{};
+  const int pairs = static_cast<int>(weights.size());
+  for (int k = 0; k < pairs; ++k) {
+    above[static_cast<std::size_t>(k)] = clamped_row(from, v - k) + begin;
+    below[static_cast<std::size_t>(k)] = clamped_row(from, v + k) + begin;
+  }
+  blur_kernels().sum_rows(above.data(), below.data(), weights.data(), pairs, end - begin, out + begin);
+}
+
+/// Separable: along columns first, tile by tile, then along rows.
+void blur_strip(const ScaleLevel& from, const std::vector<float>& weights, const ScaleLevel& to, int begin,
+                int end) {
+  const int radius = static_cast<int>(weights.size()) - 1;
+  std::vector<float> halved = weights;
+  halved[0] /= 2;  // the kernel adds the centre row to itself
+  std::vector<PaddedRow> rows(static_cast<std::size_t>(end - begin), PaddedRow(from.width, radius));
+  for (int x = 0; x < from.stride; x += kTileColumns) {
+    for (int v = begin; v < end; ++v)
+      blur_columns(from, halved, v, x, std::min(from.stride, x + kTileColumns),
+                   rows[static_cast<std::size_t>(v - begin)].data());
+  }
+  for (int v = begin; v < end; ++v) {
+    PaddedRow& row = rows[static_cast<std::size_t>(v - begin)];
+    row.pad();
+    blur_kernels().blur_row(row.data(), weights.data(), radius, to.stride, to.row(v));
+  }
+}
+
+void blur(const ScaleLevel& from, const std::vector<float>& weights, const ScaleLevel& to,
+          const Executor& executor) {
+  executor.for_each(strip_count(to.height), [&](std::size_t strip) {
+    const int begin = static_cast<int>(strip) * kStripRows;
+    blur_strip(from, weights, to, begin, std::min(to.height, begin + kStripRows));
+  });
+}
+
+/// Weights of the pixels around a point between pixels: those at `offset` + k and, mirrored, -`offset` - k.
+struct PhaseWeights {
+  explicit PhaseWeights(double offset) {
+    const double sigma = std::sqrt(kSiftSigma * kSiftSigma / 4 - kCameraSigma * kCameraSigma);
+    std::array<double, kUpsampleReach + 1> weights{};
+    double sum = 0;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const double distance = offset + static_cast<double>(k);
+      weights[k] = distance > kUpsampleReach ? 0 : std::exp(-distance * distance / (2 * sigma * sigma));
+      if (distance == 0) weights[k] /= 2;  // the centre is added to itself
+      sum += 2 * weights[k];
+    }
+    for (std::size_t k = 0; k < weights.size(); ++k) values[k] = static_cast<float>(weights[k] / sum);
+  }
+  std::array<float, kUpsampleReach + 1> values{};
+};
+
+/// Doubling and first smoothing in one: the Gaussian that takes the camera's blur to kSiftSigma, of the
+/// pixels of the image, evaluated at pixels and half-way between them.
+class Upsampler {
+ public:
+  explicit Upsampler(const GrayImage& image) : image_(image) {}
+
+  void upsample_strip(const ScaleLevel& to, int begin, int end) const {
+    const int first = begin / 2 - kUpsampleReach, last = (end - 1) / 2 + kUpsampleReach;
+    std::vector<float> wide(static_cast<std::size_t>(last - first + 1) * static_cast<std::size_t>(to.stride));
+    ScaleLevel rows{wide.data(), to.width, last - first + 1, to.stride};
+    for (int v = first; v <= last; ++v) upsample_row(v, rows.row(v - first));
+    for (int v = begin; v < end; ++v) {
+      const int centre = v / 2 - first;
+      std::array<const float*, kUpsampleReach + 1> above{}, below{};
+      for (int k = 0; k <= kUpsampleReach; ++k) {
+        above[static_cast<std::size_t>(k)] = rows.row(centre - k);
+        below[static_cast<std::size_t>(k)] = clamped_row(rows, centre + k + v % 2);
+      }
+      const PhaseWeights& weights = v % 2 == 0 ? at_pixel_ : between_;
+      blur_kernels().sum_rows(above.data(), below.data(), weights.values.data(), kUpsampleReach + 1,
+                              to.stride, to.row(v));
+    }
+  }
+
+ private:
+  void upsample_row(int v, float* out) const {
+    const int width = image_.width();
+    const std::uint8_t* pixels = image_.row(std::clamp(v, 0, image_.height() - 1));
+    PaddedRow in(width, kUpsampleReach + 1), even(width, 0), odd(width, 0);
+    std::copy(pixels, pixels + width, in.data());
+    in.pad();
+    filter(in.data(), at_pixel_, 0, width, even.data());
+    filter(in.data(), between_, 1, width, odd.data());
+    for (int x = 0; x < width; ++x) {
+      out[2 * x] = even.data()[x];
+      out[2 * x + 1] = odd.data()[x];
+    }
+    std::fill(out + 2 * width, out + round_up(2 * width, kBlurStep), out[2 * width - 1]);
+  }
+
+  static void filter(const float* in, const PhaseWeights& weights, int shift, int width, float* out) {
+    std::array<const float*, kUpsampleReach + 1> left{}, right{};
+    for (int k = 0; k <= kUpsampleReach; ++k) {
+      left[static_cast<std::size_t>(k)] = in - k;
+      right[static_cast<std::size_t>(k)] = in + k + shift;
+    }
+    blur_kernels().sum_rows(left.data(), right.data(), weights.values.data(), kUpsampleReach + 1,
+                            round_up(width, kBlurStep), out);
+  }
+
+  const GrayImage& image_;
+  PhaseWeights at_pixel_{0}, between_{0.5};
+};
+
+/// Every second pixel of every second row.
+void halve(const ScaleLevel& from, const ScaleLevel& to) {
+  for (int v = 0; v < to.height; ++v) {
+    const float* in = from.row(2 * v);
+    float* out = to.row(v);
+    for (int x = 0; x < to.width; ++x) out[x] = in[2 * x];
+    std::fill(out + to.width, out + to.stride, out[to.width - 1]);
+  }
+}
+
+}  // namespace
+
+ScaleSpace::ScaleSpace(int width, int height, int layers) : width_(width), height_(height), layers_(layers) {
+  require(layers >= 1, "an octave has at least one layer");
+  for (int i = 0; i < layers + 2; ++i)
+    blurs_.push_back(gaussian_weights(std::sqrt(std::pow(sigma(i + 1), 2) - std::pow(sigma(i), 2))));
+  std::size_t floats = 0;
+  for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2) {
+    const ScaleLevel level{nullptr, w, h, round_up(w, kBlurStep)};
+    octaves_.emplace_back(static_cast<std::size_t>(layers) + 3, level);
+    floats += octaves_.back().size() * static_cast<std::size_t>(level.stride) * static_cast<std::size_t>(h);
+  }
+  memory_ = std::make_unique_for_overwrite<float[]>(floats);
+  float* next = memory_.get();
+  for (Octave& octave : octaves_) {
+    for (ScaleLevel& level : octave) {
+      level.pixels = next;
+      next = level.row(level.height);
+    }
+  }
+}
+
+double ScaleSpace::sigma(double level) const {
+  return kSiftSigma * std::exp2(level / layers_);
+}
+
+double ScaleSpace::pixel_size(int octave) {
+  return std::ldexp(0.5, octave);
+}
+
+void ScaleSpace::build(const GrayImage& image, const Executor& executor) {
+  require(image.width() == width_ && image.height() == height_, "the image has the size of its scale space");
+  for (std::size_t o = 0; o < octaves_.size(); ++o) {
+    const ScaleLevel& base = octaves_[o][0];
+    if (o == 0) {
+      const Upsampler upsampler(image);
+      executor.for_each(strip_count(base.height), [&](std::size_t strip) {
+        const int begin = static_cast<int>(strip) * kStripRows;
+        upsampler.upsample_strip(base, begin, std::min(base.height, begin + kStripRows));
+      });
+    } else {
+      halve(octaves_[o - 1][static_cast<std::size_t>(layers_)], base);
+    }
+    for (std::size_t i = 0; i < blurs_.size(); ++i)
+      blur(octaves_[o][i], blurs_[i], octaves_[o][i + 1], executor);
+  }
+}
+
+}  // namespace cairn
