@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 #include "cairn/core/error.h"
 #include "cairn/features/sift_descriptor.h"
 #include "cairn/features/sift_orientation.h"
+#include "cairn/features/sift_patch.h"
 #include "cairn/features/sift_scale_space.h"
 #include "cairn/features/sift_selection.h"
 
@@ -17,10 +19,9 @@ namespace {
 
 constexpr std::size_t kGrain = 32;  // points that one thread works on at a time
 
-/// A point with one of its directions.
-struct Oriented {
-  ScalePoint point;
-  float angle_deg = 0;
+struct Described {
+  Keypoint keypoint;
+  std::array<std::uint8_t, kSiftDescriptorBytes> descriptor{};
 };
 
 /// Scale spaces between their uses: to take fresh memory from the system costs as much time as to fill it.
@@ -52,16 +53,30 @@ class ScaleSpacePool {
   std::vector<std::unique_ptr<ScaleSpace>> idle_;
 };
 
-Keypoint keypoint_of(const ScaleSpace& space, const Oriented& oriented) {
-  const ScalePoint& point = oriented.point;
+Keypoint keypoint_of(const ScaleSpace& space, const ScalePoint& point, float angle_deg) {
   const double pixel = ScaleSpace::pixel_size(point.octave);
   const double sigma = pixel * space.sigma(static_cast<double>(point.level));
   return {static_cast<float>(pixel * static_cast<double>(point.x)),
           static_cast<float>(pixel * static_cast<double>(point.y)),
           static_cast<float>(4 * kSiftCellSigmas * sigma),
-          oriented.angle_deg,
+          angle_deg,
           point.response,
           static_cast<float>(std::max(1.0, sigma / kSiftSigma))};
+}
+
+Features first_of(const std::vector<std::vector<Described>>& parts, std::size_t count) {
+  std::size_t total = 0;
+  for (const auto& part : parts) total += part.size();
+  Features features{{}, Descriptors(Norm::l2, kSiftDescriptorBytes, std::min(total, count))};
+  for (const auto& part : parts) {
+    for (const Described& feature : part) {
+      if (features.keypoints.size() == count) return features;
+      std::copy(feature.descriptor.begin(), feature.descriptor.end(),
+                features.descriptors.row(features.keypoints.size()));
+      features.keypoints.push_back(feature.keypoint);
+    }
+  }
+  return features;
 }
 
 class SiftExtractor : public Extractor {
@@ -73,39 +88,28 @@ class SiftExtractor : public Extractor {
     space->build(image, executor);
     std::vector<ScalePoint> points = find_sift_extrema(*space, options_.extrema, executor);
     points = select_spread(*space, std::move(points), options_.count);
-    const std::vector<Oriented> oriented = orient(*space, points, executor);
-    Features features = describe(*space, oriented, executor);
+    Features features = describe(*space, points, executor);
     pool_.give_back(std::move(space));
     return features;
   }
 
  private:
-  /// One for each direction of each point, no more than wanted.
-  [[nodiscard]] std::vector<Oriented> orient(const ScaleSpace& space, const std::vector<ScalePoint>& points,
-                                             const Executor& executor) const {
-    std::vector<std::vector<float>> angles(points.size());
-    executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) angles[i] = sift_orientations(space, points[i]);
-    });
-    std::vector<Oriented> oriented;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      for (const float angle : angles[i]) oriented.push_back({points[i], angle});
-    oriented.resize(std::min(oriented.size(), static_cast<std::size_t>(options_.count)));
-    return oriented;
-  }
-
-  [[nodiscard]] Features describe(const ScaleSpace& space, const std::vector<Oriented>& oriented,
+  /// A feature for each direction of each point, no more than wanted. Direction and descriptor are of the same
+  /// pixels, so one follows the other while these are in the cache.
+  [[nodiscard]] Features describe(const ScaleSpace& space, const std::vector<ScalePoint>& points,
                                   const Executor& executor) const {
-    Features features{std::vector<Keypoint>(oriented.size()),
-                      Descriptors(Norm::l2, kSiftDescriptorBytes, oriented.size())};
-    executor.for_each_chunk(oriented.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Described>> described((points.size() + kGrain - 1) / kGrain);
+    executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        features.keypoints[i] = keypoint_of(space, oriented[i]);
-        describe_sift(space, oriented[i].point, oriented[i].angle_deg, options_.root,
-                      features.descriptors.row(i));
+        if (i + 1 < end) prefetch_patch(space, points[i + 1]);
+        for (const float angle_deg : sift_orientations(space, points[i])) {
+          Described& feature = described[begin / kGrain].emplace_back();
+          feature.keypoint = keypoint_of(space, points[i], angle_deg);
+          describe_sift(space, points[i], angle_deg, options_.root, feature.descriptor.data());
+        }
       }
     });
-    return features;
+    return first_of(described, static_cast<std::size_t>(options_.count));
   }
 
   SiftOptions options_;

@@ -160,7 +160,7 @@ class StripSearch {
   const ScaleSpace& space_;
   int octave_, width_, height_, stride_;
   double threshold_, edge_ratio_;
-  std::vector<float> differences_;
+  AlignedFloats differences_;
   std::vector<int> found_;
   std::vector<ScalePoint> points_;
 };

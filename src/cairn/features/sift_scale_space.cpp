@@ -53,22 +53,26 @@ std::vector<float> gaussian_weights(double sigma) {
   return normalised;
 }
 
-/// A row with room on both sides, where its outermost values go on.
-class PaddedRow {
+/// Rows with room on both sides, where their outermost values go on.
+class PaddedRows {
  public:
-  PaddedRow(int width, int margin)
+  PaddedRows(int width, int rows, int margin)
       : width_(width),
         margin_(round_up(margin, kBlurStep)),
-        values_(static_cast<std::size_t>(round_up(width, kBlurStep) + 2 * margin_)) {}
-  [[nodiscard]] float* data() { return values_.data() + margin_; }
-  void pad() {
-    std::fill(values_.begin(), values_.begin() + margin_, *data());
-    std::fill(values_.begin() + margin_ + width_, values_.end(), data()[width_ - 1]);
+        stride_(round_up(width, kBlurStep) + 2 * margin_),
+        floats_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows)) {}
+  [[nodiscard]] float* row(int v) const {
+    return floats_.data() + static_cast<std::ptrdiff_t>(v) * stride_ + margin_;
+  }
+  void pad(int v) {
+    float* pixels = row(v);
+    std::fill(pixels - margin_, pixels, pixels[0]);
+    std::fill(pixels + width_, pixels - margin_ + stride_, pixels[width_ - 1]);
   }
 
  private:
-  int width_, margin_;
-  std::vector<float> values_;
+  int width_, margin_, stride_;
+  AlignedFloats floats_;
 };
 
 const float* clamped_row(const ScaleLevel& level, int v) {
@@ -98,16 +102,15 @@ void blur_strip(const ScaleLevel& from, const std::vector<float>& weights, const
   const int radius = static_cast<int>(weights.size()) - 1;
   std::vector<float> halved = weights;
   halved[0] /= 2;  // the kernel adds the centre row to itself
-  std::vector<PaddedRow> rows(static_cast<std::size_t>(end - begin), PaddedRow(from.width, radius));
+  PaddedRows rows(from.width, end - begin, radius);
   for (int x = 0; x < from.stride; x += kTileColumns) {
     for (int v = begin; v < end; ++v)
       blur_columns(from, halved, v, x, std::min(from.stride, x + kTileColumns),
-                   rows[static_cast<std::size_t>(v - begin)].data());
+                   rows.row(v - begin));
   }
   for (int v = begin; v < end; ++v) {
-    PaddedRow& row = rows[static_cast<std::size_t>(v - begin)];
-    row.pad();
-    blur_kernels().blur_row(row.data(), weights.data(), radius, to.stride, to.row(v));
+    rows.pad(v - begin);
+    blur_kernels().blur_row(rows.row(v - begin), weights.data(), radius, to.stride, to.row(v));
   }
 }
 
@@ -144,7 +147,7 @@ class Upsampler {
 
   void upsample_strip(const ScaleLevel& to, int begin, int end) const {
     const int first = begin / 2 - kUpsampleReach, last = (end - 1) / 2 + kUpsampleReach;
-    std::vector<float> wide(static_cast<std::size_t>(last - first + 1) * static_cast<std::size_t>(to.stride));
+    const AlignedFloats wide(static_cast<std::size_t>(last - first + 1) * static_cast<std::size_t>(to.stride));
     ScaleLevel rows{wide.data(), to.width, last - first + 1, to.stride};
     for (int v = first; v <= last; ++v) upsample_row(v, rows.row(v - first));
     for (int v = begin; v < end; ++v) {
@@ -164,14 +167,15 @@ class Upsampler {
   void upsample_row(int v, float* out) const {
     const int width = image_.width();
     const std::uint8_t* pixels = image_.row(std::clamp(v, 0, image_.height() - 1));
-    PaddedRow in(width, kUpsampleReach + 1), even(width, 0), odd(width, 0);
-    std::copy(pixels, pixels + width, in.data());
-    in.pad();
-    filter(in.data(), at_pixel_, 0, width, even.data());
-    filter(in.data(), between_, 1, width, odd.data());
+    PaddedRows rows(width, 3, kUpsampleReach + 1);
+    const float *in = rows.row(0), *even = rows.row(1), *odd = rows.row(2);
+    std::copy(pixels, pixels + width, rows.row(0));
+    rows.pad(0);
+    filter(in, at_pixel_, 0, width, rows.row(1));
+    filter(in, between_, 1, width, rows.row(2));
     for (int x = 0; x < width; ++x) {
-      out[2 * x] = even.data()[x];
-      out[2 * x + 1] = odd.data()[x];
+      out[2 * x] = even[x];
+      out[2 * x + 1] = odd[x];
     }
     std::fill(out + 2 * width, out + round_up(2 * width, kBlurStep), out[2 * width - 1]);
   }
@@ -200,26 +204,42 @@ void halve(const ScaleLevel& from, const ScaleLevel& to) {
   }
 }
 
+using Octave = std::vector<ScaleLevel>;
+
+/// The sizes of all levels.
+std::vector<Octave> octaves_of(int width, int height, int layers) {
+  require(layers >= 1, "an octave has at least one layer");
+  std::vector<Octave> octaves;
+  for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2)
+    octaves.emplace_back(static_cast<std::size_t>(layers) + 3, ScaleLevel{nullptr, w, h, round_up(w, kBlurStep)});
+  return octaves;
+}
+
+std::size_t floats_of(const std::vector<Octave>& octaves) {
+  std::size_t floats = 0;
+  for (const Octave& octave : octaves)
+    for (const ScaleLevel& level : octave)
+      floats += static_cast<std::size_t>(level.stride) * static_cast<std::size_t>(level.height);
+  return floats;
+}
+
 }  // namespace
 
-ScaleSpace::ScaleSpace(int width, int height, int layers) : width_(width), height_(height), layers_(layers) {
-  require(layers >= 1, "an octave has at least one layer");
-  for (int i = 0; i < layers + 2; ++i)
-    blurs_.push_back(gaussian_weights(std::sqrt(std::pow(sigma(i + 1), 2) - std::pow(sigma(i), 2))));
-  std::size_t floats = 0;
-  for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2) {
-    const ScaleLevel level{nullptr, w, h, round_up(w, kBlurStep)};
-    octaves_.emplace_back(static_cast<std::size_t>(layers) + 3, level);
-    floats += octaves_.back().size() * static_cast<std::size_t>(level.stride) * static_cast<std::size_t>(h);
-  }
-  memory_ = std::make_unique_for_overwrite<float[]>(floats);
-  float* next = memory_.get();
+ScaleSpace::ScaleSpace(int width, int height, int layers)
+    : width_(width),
+      height_(height),
+      layers_(layers),
+      octaves_(octaves_of(width, height, layers)),
+      memory_(floats_of(octaves_)) {
+  float* next = memory_.data();
   for (Octave& octave : octaves_) {
     for (ScaleLevel& level : octave) {
       level.pixels = next;
       next = level.row(level.height);
     }
   }
+  for (int i = 0; i < layers + 2; ++i)
+    blurs_.push_back(gaussian_weights(std::sqrt(std::pow(sigma(i + 1), 2) - std::pow(sigma(i), 2))));
 }
 
 double ScaleSpace::sigma(double level) const {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "cairn/core/executor.h"
+#include "cairn/features/aligned_floats.h"
 #include "cairn/image/image.h"
 
 namespace cairn {
@@ -54,7 +54,7 @@ class ScaleSpace {
   int width_, height_, layers_;
   std::vector<std::vector<float>> blurs_;  ///< weights that make level i + 1 of level i
   std::vector<Octave> octaves_;
-  std::unique_ptr<float[]> memory_;
+  AlignedFloats memory_;
 };
 
 }  // namespace cairn

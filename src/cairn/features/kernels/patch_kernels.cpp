@@ -39,16 +39,42 @@ Places places_of(const PatchGrid& grid, int i, int begin) {
   return places;
 }
 
-/// Reads the four pixels around each place; columns are blended first.
-void blend(const float* pixels, int stride, const Places& places, float* samples) {
-  float left[kBlock], right[kBlock];
-  for (int j = 0; j < kBlock; ++j) {
-    const float* at = pixels + places.offset[j];
-    const float* under = at + stride;
-    left[j] = at[0] + places.below[j] * (under[0] - at[0]);
-    right[j] = at[1] + places.below[j] * (under[1] - at[1]);
+/// The pixels left and right of four places: two of them beside each other are read at once.
+struct Pairs {
+  float left[4], right[4];
+};
+
+#if defined(__SSE2__)
+inline Pairs pairs_at(const float* pixels, const int* offsets) {
+  const auto pair = [&](int j) { return reinterpret_cast<const __m64*>(pixels + offsets[j]); };
+  const __m128 first = _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), pair(0)), pair(1));
+  const __m128 second = _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), pair(2)), pair(3));
+  Pairs pairs;
+  _mm_storeu_ps(pairs.left, _mm_shuffle_ps(first, second, _MM_SHUFFLE(2, 0, 2, 0)));
+  _mm_storeu_ps(pairs.right, _mm_shuffle_ps(first, second, _MM_SHUFFLE(3, 1, 3, 1)));
+  return pairs;
+}
+#else
+inline Pairs pairs_at(const float* pixels, const int* offsets) {
+  Pairs pairs;
+  for (int j = 0; j < 4; ++j) {
+    pairs.left[j] = pixels[offsets[j]];
+    pairs.right[j] = pixels[offsets[j] + 1];
   }
-  for (int j = 0; j < kBlock; ++j) samples[j] = left[j] + places.right[j] * (right[j] - left[j]);
+  return pairs;
+}
+#endif
+
+/// Blends the four pixels around each place, columns first.
+void blend(const float* pixels, int stride, const Places& places, float* samples) {
+  for (int j = 0; j < kBlock; j += 4) {
+    const Pairs above = pairs_at(pixels, places.offset + j), under = pairs_at(pixels + stride, places.offset + j);
+    for (int l = 0; l < 4; ++l) {
+      const float left = above.left[l] + places.below[j + l] * (under.left[l] - above.left[l]);
+      const float right = above.right[l] + places.below[j + l] * (under.right[l] - above.right[l]);
+      samples[j + l] = left + places.right[j + l] * (right - left);
+    }
+  }
 }
 
 void sample(const PatchGrid& grid, int side, float* samples) {
@@ -69,24 +95,33 @@ Gradient gradient_at(const float* samples, int side) {
   return {main + other, main - other};
 }
 
-/// atan(a) for a in [0, 1] to 1e-5 (Abramowitz and Stegun, 4.4.47), as a share of a whole turn.
-float small_angle(float a) {
-  constexpr float kTurn = 0.15915494F;  // 1 / (2 pi)
-  const float s = a * a;
-  return kTurn * a * (0.9998660F + s * (-0.3302995F + s * (0.1801410F + s * (-0.0851330F + s * 0.0208351F))));
+/// atan(a) for a in [0, 1] to 1e-5 (Abramowitz and Stegun, 4.4.47), in bins.
+Lanes small_angle(Lanes a) {
+  constexpr float kBins = kOrientationBins * 0.15915494F;  // bins per radian
+  const Lanes s = a * a;
+  return spread(kBins) * a *
+         (spread(0.9998660F) +
+          s * (spread(-0.3302995F) + s * (spread(0.1801410F) + s * (spread(-0.0851330F) + s * spread(0.0208351F)))));
 }
 
-/// Bin of each gradient's direction, and its length times its weight.
-void bins_of(const float* x, const float* y, const float* weights, int* bins, float* lengths) {
-  for (int j = 0; j < kBlock; ++j) {
-    const float ax = x[j] < 0.0F ? -x[j] : x[j], ay = y[j] < 0.0F ? -y[j] : y[j];
-    const float large = ax > ay ? ax : ay, little = ax > ay ? ay : ax;
-    float turn = small_angle(little / (large > 1e-20F ? large : 1e-20F));
-    turn = ay > ax ? 0.25F - turn : turn;
-    turn = x[j] < 0.0F ? 0.5F - turn : turn;
-    turn = y[j] < 0.0F ? 1.0F - turn : turn;
-    bins[j] = static_cast<int>(turn * kOrientationBins + 0.5F);
-    lengths[j] = weights[j] * __builtin_sqrtf(x[j] * x[j] + y[j] * y[j]);
+/// Direction of the gradient in bins, [0, kOrientationBins].
+Lanes direction_of(const Gradient& gradient) {
+  const Lanes zero = spread(0.0F);
+  const Lanes ax = larger(gradient.x, zero - gradient.x), ay = larger(gradient.y, zero - gradient.y);
+  constexpr float kTiny = 1e-20F;  // instead of a division by zero
+  const Lanes angle = small_angle(smaller(ax, ay) / larger(larger(ax, ay), spread(kTiny)));
+  const Lanes first = choose(ay, ax, spread(kOrientationBins / 4.0F) - angle, angle);
+  const Lanes upper = choose(zero, gradient.x, spread(kOrientationBins / 2.0F) - first, first);
+  return choose(zero, gradient.y, spread(kOrientationBins) - upper, upper);
+}
+
+/// Bin of each direction in a row of gradients, and their lengths times their weights.
+void bins_of(const float* samples, const float* weights, int* bins, float* lengths) {
+  for (int j = 0; j < kBlock; j += kLanes) {
+    const Gradient gradient = gradient_at(samples + j, kOrientationSide);
+    const Lanes length = square_root(gradient.x * gradient.x + gradient.y * gradient.y);
+    store(lengths + j, load(weights + j) * length);
+    store_truncated(bins + j, direction_of(gradient) + spread(0.5F));
   }
 }
 
@@ -95,18 +130,12 @@ void orientations(const float* samples, const float* weights, float* histogram) 
   constexpr int kSums = 4;
   float sums[kSums][kOrientationBins + 1] = {};
   for (int i = 0; i + 1 < kOrientationSide; ++i) {
-    float x[kBlock], y[kBlock], lengths[kBlock];
+    float lengths[kBlock];
     int bins[kBlock];
-    for (int j = 0; j < kBlock; j += kLanes) {
-      const Gradient gradient = gradient_at(samples + i * kOrientationSide + j, kOrientationSide);
-      store(x + j, gradient.x);
-      store(y + j, gradient.y);
-    }
-    bins_of(x, y, weights + i * kBlock, bins, lengths);
+    bins_of(samples + i * kOrientationSide, weights + i * kOrientationSide, bins, lengths);
     for (int j = 0; j < kBlock; ++j) sums[j % kSums][bins[j]] += lengths[j];
   }
-  for (int b = 0; b < kOrientationBins; ++b)
-    histogram[b] = (sums[0][b] + sums[1][b]) + (sums[2][b] + sums[3][b]);
+  for (int b = 0; b < kOrientationBins; ++b) histogram[b] = (sums[0][b] + sums[1][b]) + (sums[2][b] + sums[3][b]);
   histogram[0] += (sums[0][kOrientationBins] + sums[1][kOrientationBins]) +
                   (sums[2][kOrientationBins] + sums[3][kOrientationBins]);
 }
