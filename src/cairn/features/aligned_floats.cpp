@@ -19,7 +19,8 @@ float* allocate(std::size_t count) {
   void* memory = std::aligned_alloc(alignment, rounded);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  if (alignment == kLargePage) madvise(memory, rounded, MADV_HUGEPAGE);  // a wish: failing, it changes nothing
+  if (alignment == kLargePage)
+    madvise(memory, rounded, MADV_HUGEPAGE);  // a wish: failing, it changes nothing
 #endif
   return static_cast<float*>(memory);
 }

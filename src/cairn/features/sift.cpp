@@ -94,8 +94,8 @@ class SiftExtractor : public Extractor {
   }
 
  private:
-  /// A feature for each direction of each point, no more than wanted. Direction and descriptor are of the same
-  /// pixels, so one follows the other while these are in the cache.
+  /// A feature for each direction of each point, no more than wanted. Direction and descriptor are of the
+  /// same pixels, so one follows the other while these are in the cache.
   [[nodiscard]] Features describe(const ScaleSpace& space, const std::vector<ScalePoint>& points,
                                   const Executor& executor) const {
     std::vector<std::vector<Described>> described((points.size() + kGrain - 1) / kGrain);

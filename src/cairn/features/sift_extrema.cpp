@@ -16,7 +16,8 @@ constexpr int kBorder = 5;      // octave pixels: nearer to the border, D is mad
 constexpr int kStripRows = 32;  // rows that one thread searches at a time
 constexpr int kMaxMoves = 5;    // from pixel to pixel towards the extremum (Lowe's own number is not given)
 constexpr double kGreyRange = 255;
-constexpr int kAlign = 16;  // floats, the kernels' step
+constexpr double kFirstShare =
+    0.8;  // of the contrast, at a pixel: between pixels the parabola may reach the whole
 
 struct Place {
   int x, y, level;
@@ -78,43 +79,24 @@ class StripSearch {
         octave_(octave),
         width_(space.level(octave, 0).width),
         height_(space.level(octave, 0).height),
-        stride_(space.level(octave, 0).stride),
         threshold_(options.contrast / space.layers() * kGreyRange),
         edge_ratio_(options.edge_ratio),
-        differences_(static_cast<std::size_t>((space.layers() + 2) * 3) *
-                     static_cast<std::size_t>(stride_ + kAlign)),
-        found_(static_cast<std::size_t>(stride_)) {}
+        found_(static_cast<std::size_t>(width_)) {}
 
   /// Rows [begin, end), at least kBorder away from the image's border.
   std::vector<ScalePoint> search(int begin, int end) {
-    fill_row(begin - 1);
-    fill_row(begin);
-    for (int y = begin; y < end; ++y) {
-      fill_row(y + 1);
+    for (int y = begin; y < end; ++y)
       for (int level = 1; level <= space_.layers(); ++level) search_row(y, level);
-    }
     return std::move(points_);
   }
 
  private:
-  /// Three rows of each level of D are kept, in turn.
-  float* difference_row(int level, int y) {
-    return differences_.data() + static_cast<std::ptrdiff_t>(level * 3 + y % 3) * (stride_ + kAlign);
-  }
-
-  void fill_row(int y) {
-    for (int level = 0; level < space_.layers() + 2; ++level)
-      extrema_kernels().subtract(space_.level(octave_, level + 1).row(y), space_.level(octave_, level).row(y),
-                                 stride_, difference_row(level, y));
-  }
-
   void search_row(int y, int level) {
-    DifferenceRows rows{};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) rows.rows[i][j] = difference_row(level - 1 + i, y - 1 + j);
-    // The parabola may raise |D| by as much again, hence half the threshold.
+    GaussianRows rows{};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 3; ++j) rows.rows[i][j] = space_.level(octave_, level - 1 + i).row(y - 1 + j);
     const int count = extrema_kernels().find(rows, kBorder, width_ - kBorder,
-                                             static_cast<float>(threshold_ / 2), found_.data());
+                                             static_cast<float>(kFirstShare * threshold_), found_.data());
     for (int i = 0; i < count; ++i) {
       const auto point = refine({found_[static_cast<std::size_t>(i)], y, level});
       if (point) points_.push_back(*point);
@@ -158,9 +140,8 @@ class StripSearch {
   }
 
   const ScaleSpace& space_;
-  int octave_, width_, height_, stride_;
+  int octave_, width_, height_;
   double threshold_, edge_ratio_;
-  AlignedFloats differences_;
   std::vector<int> found_;
   std::vector<ScalePoint> points_;
 };

@@ -11,12 +11,12 @@
 namespace cairn {
 namespace {
 
-constexpr int kSmallestSide = 16;     // octave pixels: below, no keypoint has room for its surroundings
-constexpr double kCameraSigma = 0.5;  // pixels: blur that a sharp image has (Lowe 2004, section 3.3)
-constexpr double kTruncation = 3;     // standard deviations on either side
-constexpr int kStripRows = 16;        // a strip's smoothed columns stay in the cache
-constexpr int kTileColumns = 256;     // with the rows that a strip needs: 35 KB
-constexpr int kUpsampleReach = 2;     // image pixels: 3 standard deviations of the first blur
+constexpr int kSmallestSide = 16;      // octave pixels: below, no keypoint has room for its surroundings
+constexpr double kCameraSigma = 0.25;  // pixels: blur that a sharp image has (Lowe 2004, section 3.3)
+constexpr double kTruncation = 2.5;    // standard deviations on either side
+constexpr int kStripRows = 16;         // a strip's smoothed columns stay in the cache
+constexpr int kTileColumns = 256;      // with the rows that a strip needs: 35 KB
+constexpr int kUpsampleReach = 2;      // image pixels: 3 standard deviations of the first blur
 
 int round_up(int value, int step) {
   return (value + step - 1) / step * step;
@@ -75,52 +75,75 @@ class PaddedRows {
   AlignedFloats floats_;
 };
 
-const float* clamped_row(const ScaleLevel& level, int v) {
-  return level.row(std::clamp(v, 0, level.height - 1));
-}
-
-std::size_t strip_count(int height) {
-  return static_cast<std::size_t>((height + kStripRows - 1) / kStripRows);
-}
-
-/// Smoothes along columns: row v of `from`, columns [begin, end), to `out`.
-void blur_columns(const ScaleLevel& from, const std::vector<float>& weights, int v, int begin, int end,
-                  float* out) {
-  constexpr std::size_t kMaxRadius = 64;
-  std::array<const float*, kMaxRadius> above{}, below{};
-  const int pairs = static_cast<int>(weights.size());
-  for (int k = 0; k < pairs; ++k) {
-    above[static_cast<std::size_t>(k)] = clamped_row(from, v - k) + begin;
-    below[static_cast<std::size_t>(k)] = clamped_row(from, v + k) + begin;
+/// Pointers to the rows [begin - margin, end + margin) of a level, whose border rows go on.
+class RowTable {
+ public:
+  RowTable(const ScaleLevel& level, int begin, int end, int margin) : first_(begin - margin) {
+    for (int v = begin - margin; v < end + margin; ++v)
+      rows_.push_back(level.row(std::clamp(v, 0, level.height - 1)));
   }
-  blur_kernels().sum_rows(above.data(), below.data(), weights.data(), pairs, end - begin, out + begin);
-}
+  [[nodiscard]] const float* const* at(int v) const { return rows_.data() + (v - first_); }
 
-/// Separable: along columns first, tile by tile, then along rows.
-void blur_strip(const ScaleLevel& from, const std::vector<float>& weights, const ScaleLevel& to, int begin,
-                int end) {
-  const int radius = static_cast<int>(weights.size()) - 1;
-  std::vector<float> halved = weights;
-  halved[0] /= 2;  // the kernel adds the centre row to itself
-  PaddedRows rows(from.width, end - begin, radius);
-  for (int x = 0; x < from.stride; x += kTileColumns) {
-    for (int v = begin; v < end; ++v)
-      blur_columns(from, halved, v, x, std::min(from.stride, x + kTileColumns),
-                   rows.row(v - begin));
-  }
-  for (int v = begin; v < end; ++v) {
-    rows.pad(v - begin);
-    blur_kernels().blur_row(rows.row(v - begin), weights.data(), radius, to.stride, to.row(v));
-  }
-}
+ private:
+  int first_;
+  std::vector<const float*> rows_;
+};
 
-void blur(const ScaleLevel& from, const std::vector<float>& weights, const ScaleLevel& to,
-          const Executor& executor) {
-  executor.for_each(strip_count(to.height), [&](std::size_t strip) {
-    const int begin = static_cast<int>(strip) * kStripRows;
-    blur_strip(from, weights, to, begin, std::min(to.height, begin + kStripRows));
+/// Calls work(begin, end, scratch) for strips of rows.
+template <class Scratch, class Work>
+void for_each_strip(int height, const Executor& executor, const Scratch& make_scratch, const Work& work) {
+  constexpr std::size_t kGrain = 4;  // strips that one thread works on with the same scratch
+  const auto strips = static_cast<std::size_t>((height + kStripRows - 1) / kStripRows);
+  executor.for_each_chunk(strips, kGrain, [&](std::size_t first, std::size_t last) {
+    auto scratch = make_scratch();
+    for (std::size_t strip = first; strip < last; ++strip) {
+      const int begin = static_cast<int>(strip) * kStripRows;
+      work(begin, std::min(height, begin + kStripRows), scratch);
+    }
   });
 }
+
+/// A separable filter; weights of the centre and of its neighbours on one side.
+class Blur {
+ public:
+  Blur(const ScaleLevel& from, const std::vector<float>& weights, const ScaleLevel& to)
+      : from_(from), weights_(weights), halved_(weights), to_(to) {
+    halved_[0] /= 2;  // sum_rows adds the centre row to itself
+  }
+
+  void run(const Executor& executor) const {
+    for_each_strip(
+        to_.height, executor, [&] { return PaddedRows(from_.width, kStripRows, radius()); },
+        [&](int begin, int end, PaddedRows& rows) {
+          blur_columns(begin, end, rows);
+          blur_rows(begin, end, rows);
+        });
+  }
+
+ private:
+  [[nodiscard]] int radius() const { return static_cast<int>(weights_.size()) - 1; }
+
+  /// Tile by tile, because of each row many are made.
+  void blur_columns(int begin, int end, const PaddedRows& rows) const {
+    const RowTable table(from_, begin, end, radius());
+    for (int x = 0; x < from_.stride; x += kTileColumns)
+      for (int v = begin; v < end; ++v)
+        blur_kernels().sum_rows(table.at(v), 0, halved_.data(), radius() + 1, x,
+                                std::min(from_.stride, x + kTileColumns), rows.row(v - begin));
+  }
+
+  void blur_rows(int begin, int end, PaddedRows& rows) const {
+    for (int v = begin; v < end; ++v) {
+      rows.pad(v - begin);
+      blur_kernels().blur_row(rows.row(v - begin), weights_.data(), radius(), to_.stride, to_.row(v));
+    }
+  }
+
+  const ScaleLevel& from_;
+  const std::vector<float>& weights_;
+  std::vector<float> halved_;
+  const ScaleLevel& to_;
+};
 
 /// Weights of the pixels around a point between pixels: those at `offset` + k and, mirrored, -`offset` - k.
 struct PhaseWeights {
@@ -145,34 +168,41 @@ class Upsampler {
  public:
   explicit Upsampler(const GrayImage& image) : image_(image) {}
 
-  void upsample_strip(const ScaleLevel& to, int begin, int end) const {
-    const int first = begin / 2 - kUpsampleReach, last = (end - 1) / 2 + kUpsampleReach;
-    const AlignedFloats wide(static_cast<std::size_t>(last - first + 1) * static_cast<std::size_t>(to.stride));
-    ScaleLevel rows{wide.data(), to.width, last - first + 1, to.stride};
-    for (int v = first; v <= last; ++v) upsample_row(v, rows.row(v - first));
+  void run(const ScaleLevel& to, const Executor& executor) const {
+    constexpr int kRows = kStripRows / 2 + 2 * kUpsampleReach + 1;
+    for_each_strip(
+        to.height, executor,
+        [&] {
+          return Scratch{AlignedFloats(kRows * static_cast<std::size_t>(to.stride)),
+                         PaddedRows(image_.width(), 3, kUpsampleReach + 1)};
+        },
+        [&](int begin, int end, Scratch& scratch) { upsample_strip(to, begin, end, scratch); });
+  }
+
+ private:
+  struct Scratch {
+    AlignedFloats wide;  ///< image rows of twice the width
+    PaddedRows phases;   ///< one image row; filtered at its pixels; filtered between them
+  };
+
+  void upsample_strip(const ScaleLevel& to, int begin, int end, Scratch& scratch) const {
+    const int first = begin / 2 - kUpsampleReach, last = (end - 1) / 2 + kUpsampleReach + 1;
+    const ScaleLevel wide{scratch.wide.data(), to.width, last - first + 1, to.stride};
+    for (int v = first; v <= last; ++v) upsample_row(v, scratch.phases, wide.row(v - first));
+    const RowTable table(wide, 0, wide.height, kUpsampleReach);
     for (int v = begin; v < end; ++v) {
-      const int centre = v / 2 - first;
-      std::array<const float*, kUpsampleReach + 1> above{}, below{};
-      for (int k = 0; k <= kUpsampleReach; ++k) {
-        above[static_cast<std::size_t>(k)] = rows.row(centre - k);
-        below[static_cast<std::size_t>(k)] = clamped_row(rows, centre + k + v % 2);
-      }
       const PhaseWeights& weights = v % 2 == 0 ? at_pixel_ : between_;
-      blur_kernels().sum_rows(above.data(), below.data(), weights.values.data(), kUpsampleReach + 1,
+      blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, weights.values.data(), kUpsampleReach + 1, 0,
                               to.stride, to.row(v));
     }
   }
 
- private:
-  void upsample_row(int v, float* out) const {
+  void upsample_row(int v, PaddedRows& phases, float* out) const {
     const int width = image_.width();
     const std::uint8_t* pixels = image_.row(std::clamp(v, 0, image_.height() - 1));
-    PaddedRows rows(width, 3, kUpsampleReach + 1);
-    const float *in = rows.row(0), *even = rows.row(1), *odd = rows.row(2);
-    std::copy(pixels, pixels + width, rows.row(0));
-    rows.pad(0);
-    filter(in, at_pixel_, 0, width, rows.row(1));
-    filter(in, between_, 1, width, rows.row(2));
+    std::copy(pixels, pixels + width, phases.row(0));
+    phases.pad(0);
+    const float *even = filter(phases, 0, at_pixel_), *odd = filter(phases, 1, between_);
     for (int x = 0; x < width; ++x) {
       out[2 * x] = even[x];
       out[2 * x + 1] = odd[x];
@@ -180,14 +210,15 @@ class Upsampler {
     std::fill(out + 2 * width, out + round_up(2 * width, kBlurStep), out[2 * width - 1]);
   }
 
-  static void filter(const float* in, const PhaseWeights& weights, int shift, int width, float* out) {
-    std::array<const float*, kUpsampleReach + 1> left{}, right{};
-    for (int k = 0; k <= kUpsampleReach; ++k) {
-      left[static_cast<std::size_t>(k)] = in - k;
-      right[static_cast<std::size_t>(k)] = in + k + shift;
-    }
-    blur_kernels().sum_rows(left.data(), right.data(), weights.values.data(), kUpsampleReach + 1,
-                            round_up(width, kBlurStep), out);
+  /// Along the row: of the row moved by 0, 1, ... pixels.
+  const float* filter(PaddedRows& phases, int shift, const PhaseWeights& weights) const {
+    std::array<const float*, 2 * kUpsampleReach + 2> moved{};
+    for (std::size_t k = 0; k < moved.size(); ++k)
+      moved[k] = phases.row(0) + static_cast<std::ptrdiff_t>(k) - kUpsampleReach;
+    float* out = phases.row(1 + shift);
+    blur_kernels().sum_rows(moved.data() + kUpsampleReach, shift, weights.values.data(), kUpsampleReach + 1,
+                            0, round_up(image_.width(), kBlurStep), out);
+    return out;
   }
 
   const GrayImage& image_;
@@ -211,7 +242,8 @@ std::vector<Octave> octaves_of(int width, int height, int layers) {
   require(layers >= 1, "an octave has at least one layer");
   std::vector<Octave> octaves;
   for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2)
-    octaves.emplace_back(static_cast<std::size_t>(layers) + 3, ScaleLevel{nullptr, w, h, round_up(w, kBlurStep)});
+    octaves.emplace_back(static_cast<std::size_t>(layers) + 3,
+                         ScaleLevel{nullptr, w, h, round_up(w, kBlurStep)});
   return octaves;
 }
 
@@ -253,18 +285,13 @@ double ScaleSpace::pixel_size(int octave) {
 void ScaleSpace::build(const GrayImage& image, const Executor& executor) {
   require(image.width() == width_ && image.height() == height_, "the image has the size of its scale space");
   for (std::size_t o = 0; o < octaves_.size(); ++o) {
-    const ScaleLevel& base = octaves_[o][0];
     if (o == 0) {
-      const Upsampler upsampler(image);
-      executor.for_each(strip_count(base.height), [&](std::size_t strip) {
-        const int begin = static_cast<int>(strip) * kStripRows;
-        upsampler.upsample_strip(base, begin, std::min(base.height, begin + kStripRows));
-      });
+      Upsampler(image).run(octaves_[o][0], executor);
     } else {
-      halve(octaves_[o - 1][static_cast<std::size_t>(layers_)], base);
+      halve(octaves_[o - 1][static_cast<std::size_t>(layers_)], octaves_[o][0]);
     }
     for (std::size_t i = 0; i < blurs_.size(); ++i)
-      blur(octaves_[o][i], blurs_[i], octaves_[o][i + 1], executor);
+      Blur(octaves_[o][i], blurs_[i], octaves_[o][i + 1]).run(executor);
   }
 }
 

@@ -8,15 +8,14 @@ namespace {
 
 /// Several vectors at a time: their sums do not wait for each other.
 template <int vectors>
-void sum_block(const float* const* first, const float* const* second, const float* weights, int pairs, int x,
-               float* out) {
+void sum_block(const float* const* rows, int shift, const float* weights, int pairs, int x, float* out) {
   Lanes sum[vectors];
-  for (int i = 0; i < vectors; ++i)
-    sum[i] = spread(weights[0]) * (load(first[0] + x + i * kLanes) + load(second[0] + x + i * kLanes));
-  for (int k = 1; k < pairs; ++k) {
+  for (Lanes& value : sum) value = spread(0.0F);
+  for (int k = 0; k < pairs; ++k) {
+    const float *above = rows[-k] + x, *below = rows[k + shift] + x;
     const Lanes weight = spread(weights[k]);
     for (int i = 0; i < vectors; ++i)
-      sum[i] = sum[i] + weight * (load(first[k] + x + i * kLanes) + load(second[k] + x + i * kLanes));
+      sum[i] = sum[i] + weight * (load(above + i * kLanes) + load(below + i * kLanes));
   }
   for (int i = 0; i < vectors; ++i) store(out + x + i * kLanes, sum[i]);
 }
@@ -35,12 +34,12 @@ void blur_block(const float* in, const float* weights, int radius, float* out) {
 
 constexpr int kVectors = 4;
 
-void sum_rows(const float* const* first, const float* const* second, const float* weights, int pairs,
-              int count, float* out) {
-  int x = 0;
-  for (; x + kVectors * kLanes <= count; x += kVectors * kLanes)
-    sum_block<kVectors>(first, second, weights, pairs, x, out);
-  for (; x < count; x += kLanes) sum_block<1>(first, second, weights, pairs, x, out);
+void sum_rows(const float* const* rows, int shift, const float* weights, int pairs, int begin, int end,
+              float* out) {
+  int x = begin;
+  for (; x + kVectors * kLanes <= end; x += kVectors * kLanes)
+    sum_block<kVectors>(rows, shift, weights, pairs, x, out);
+  for (; x < end; x += kLanes) sum_block<1>(rows, shift, weights, pairs, x, out);
 }
 
 void blur_row(const float* in, const float* weights, int radius, int count, float* out) {

@@ -7,12 +7,12 @@
 
 namespace cairn {
 
-/// Symmetric filters of rows of floats. Counts are multiples of kBlurStep; a row has that much room.
+/// Symmetric filters of rows of floats. Columns are worked on in steps of kBlurStep.
 struct BlurKernels {
-  /// out[x] = sum over k < pairs of weights[k] (first[k][x] + second[k][x]): one row of a filter along
-  /// columns.
-  void (*sum_rows)(const float* const* first, const float* const* second, const float* weights, int pairs,
-                   int count, float* out);
+  /// out[x] = sum over k < pairs of weights[k] (rows[-k][x] + rows[k + shift][x]) for x in [begin, end): a
+  /// filter along columns around row 0, or between rows 0 and 1 where `shift` is 1.
+  void (*sum_rows)(const float* const* rows, int shift, const float* weights, int pairs, int begin, int end,
+                   float* out);
   /// out[x] = weights[0] in[x] + sum over 1 <= k <= radius of weights[k] (in[x - k] + in[x + k]); `in` goes
   /// on for `radius` floats on both sides.
   void (*blur_row)(const float* in, const float* weights, int radius, int count, float* out);

@@ -6,47 +6,53 @@
 namespace cairn::CAIRN_ISA {
 namespace {
 
-/// Lanes that are not below, and lanes that are not above, what they have been compared with so far.
-struct Candidates {
-  unsigned maxima, minima;
+/// Smallest and largest of D so far.
+struct Range {
+  Lanes low, high;
 
-  [[nodiscard]] bool none() const { return (maxima | minima) == 0; }
-  void compare(Lanes centre, Lanes low, Lanes high) {
-    maxima &= at_least(centre, high);
-    minima &= at_least(low, centre);
+  void include(Lanes value) {
+    low = smaller(low, value);
+    high = larger(high, value);
   }
 };
 
-/// With the row's values left, at and right of x.
-void compare_row(Candidates& candidates, Lanes centre, const float* row, int x) {
-  const Lanes left = load(row + x - 1), middle = load(row + x), right = load(row + x + 1);
-  candidates.compare(centre, smaller(smaller(left, middle), right), larger(larger(left, middle), right));
-}
+/// D between two levels, in one row.
+struct DifferenceRow {
+  const float *finer, *coarser;
 
-constexpr int kLevelOrder[] = {1, 0, 2};
+  [[nodiscard]] Lanes at(int x) const { return load(coarser + x) - load(finer + x); }
+};
 
-/// Bit l says whether x + l is an extremum. Most vectors are done with after the middle level.
-unsigned extrema_at(const DifferenceRows& differences, int x, Lanes threshold) {
-  const Lanes centre = load(differences.rows[1][1] + x);
-  Candidates candidates{at_least(centre, threshold), at_least(spread(0.0F) - threshold, centre)};
-  for (const int level : kLevelOrder) {
-    for (int row = 0; row < 3; ++row) {
-      if (candidates.none()) return 0;
-      compare_row(candidates, centre, differences.rows[level][row], x);
-    }
+/// Of the 9 values of D between `level` and the next around x, with `centre` among or beside them.
+Range range_around(const GaussianRows& gaussians, int level, int x, Lanes centre) {
+  Range range{centre, centre};
+  for (int row = 0; row < 3; ++row) {
+    const DifferenceRow difference{gaussians.rows[level][row], gaussians.rows[level + 1][row]};
+    for (int dx = -1; dx <= 1; ++dx) range.include(difference.at(x + dx));
   }
-  return candidates.maxima | candidates.minima;
+  return range;
 }
 
-void subtract(const float* a, const float* b, int count, float* out) {
-  for (int x = 0; x < count; x += kLanes) store(out + x, load(a + x) - load(b + x));
+/// Bit l says whether x + l is an extremum. Most vectors are done with after the threshold or the middle
+/// level.
+unsigned extrema_at(const GaussianRows& gaussians, int x, Lanes threshold) {
+  constexpr int kOrder[] = {1, 0, 2};
+  const Lanes centre = DifferenceRow{gaussians.rows[1][1], gaussians.rows[2][1]}.at(x);
+  unsigned maxima = at_least(centre, threshold), minima = at_least(spread(0.0F) - threshold, centre);
+  for (const int level : kOrder) {
+    if ((maxima | minima) == 0) return 0;
+    const Range range = range_around(gaussians, level, x, centre);
+    maxima &= at_least(centre, range.high);
+    minima &= at_least(range.low, centre);
+  }
+  return maxima | minima;
 }
 
-int find(const DifferenceRows& differences, int begin, int end, float threshold, int* found) {
+int find(const GaussianRows& gaussians, int begin, int end, float threshold, int* found) {
   const Lanes thresholds = spread(threshold);
   int count = 0;
   for (int x = begin; x < end; x += kLanes) {
-    for (unsigned bits = extrema_at(differences, x, thresholds); bits != 0; bits &= bits - 1) {
+    for (unsigned bits = extrema_at(gaussians, x, thresholds); bits != 0; bits &= bits - 1) {
       const int column = x + __builtin_ctz(bits);
       if (column < end) found[count++] = column;
     }
@@ -57,6 +63,6 @@ int find(const DifferenceRows& differences, int begin, int end, float threshold,
 }  // namespace
 
 extern const ExtremaKernels kExtremaKernels;
-const ExtremaKernels kExtremaKernels{subtract, find};
+const ExtremaKernels kExtremaKernels{find};
 
 }  // namespace cairn::CAIRN_ISA

@@ -5,18 +5,17 @@
 
 namespace cairn {
 
-/// Rows v - 1, v and v + 1 of three neighbouring levels of differences of Gaussians: rows[level][row].
-struct DifferenceRows {
-  const float* rows[3][3];
+/// Rows v - 1, v and v + 1 of four neighbouring levels of Gaussian images: rows[level][row].
+struct GaussianRows {
+  const float* rows[4][3];
 };
 
 struct ExtremaKernels {
-  /// out[x] = a[x] - b[x]; `count` is a multiple of 16.
-  void (*subtract)(const float* a, const float* b, int count, float* out);
-  /// Columns in [begin, end) where the middle row of the middle level has at least the absolute value
-  /// `threshold` > 0 and is nowhere exceeded among its 26 neighbours, ascending; returns how many. Rows have
-  /// room to end + 16. `found` has room for end - begin.
-  int (*find)(const DifferenceRows& differences, int begin, int end, float threshold, int* found);
+  /// With D = the differences of each level and the one before, three in number: columns in [begin, end)
+  /// where D in the middle has at least the absolute value `threshold` > 0 and, positive, is not exceeded by
+  /// any of its 26 neighbours or, negative, does not exceed any. Ascending; returns how many. Rows are
+  /// readable from begin - 1 to end + 16; `found` has room for end - begin.
+  int (*find)(const GaussianRows& gaussians, int begin, int end, float threshold, int* found);
 };
 
 CAIRN_KERNEL_TABLES(ExtremaKernels, kExtremaKernels)

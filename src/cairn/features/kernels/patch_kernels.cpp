@@ -68,7 +68,8 @@ inline Pairs pairs_at(const float* pixels, const int* offsets) {
 /// Blends the four pixels around each place, columns first.
 void blend(const float* pixels, int stride, const Places& places, float* samples) {
   for (int j = 0; j < kBlock; j += 4) {
-    const Pairs above = pairs_at(pixels, places.offset + j), under = pairs_at(pixels + stride, places.offset + j);
+    const Pairs above = pairs_at(pixels, places.offset + j),
+                under = pairs_at(pixels + stride, places.offset + j);
     for (int l = 0; l < 4; ++l) {
       const float left = above.left[l] + places.below[j + l] * (under.left[l] - above.left[l]);
       const float right = above.right[l] + places.below[j + l] * (under.right[l] - above.right[l]);
@@ -101,7 +102,8 @@ Lanes small_angle(Lanes a) {
   const Lanes s = a * a;
   return spread(kBins) * a *
          (spread(0.9998660F) +
-          s * (spread(-0.3302995F) + s * (spread(0.1801410F) + s * (spread(-0.0851330F) + s * spread(0.0208351F)))));
+          s * (spread(-0.3302995F) +
+               s * (spread(0.1801410F) + s * (spread(-0.0851330F) + s * spread(0.0208351F)))));
 }
 
 /// Direction of the gradient in bins, [0, kOrientationBins].
@@ -135,7 +137,8 @@ void orientations(const float* samples, const float* weights, float* histogram) 
     bins_of(samples + i * kOrientationSide, weights + i * kOrientationSide, bins, lengths);
     for (int j = 0; j < kBlock; ++j) sums[j % kSums][bins[j]] += lengths[j];
   }
-  for (int b = 0; b < kOrientationBins; ++b) histogram[b] = (sums[0][b] + sums[1][b]) + (sums[2][b] + sums[3][b]);
+  for (int b = 0; b < kOrientationBins; ++b)
+    histogram[b] = (sums[0][b] + sums[1][b]) + (sums[2][b] + sums[3][b]);
   histogram[0] += (sums[0][kOrientationBins] + sums[1][kOrientationBins]) +
                   (sums[2][kOrientationBins] + sums[3][kOrientationBins]);
 }
