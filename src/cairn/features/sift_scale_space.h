@@ -5,20 +5,13 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/features/aligned_floats.h"
+#include "cairn/features/sift_rows.h"
 #include "cairn/image/image.h"
 
 namespace cairn {
 
 /// Smoothing of the first level of each octave, in that octave's pixels (Lowe 2004, section 3.3).
 constexpr double kSiftSigma = 1.6;
-
-/// An image of floats that lies in a ScaleSpace; rows are padded to a multiple of 16.
-struct ScaleLevel {
-  float* pixels = nullptr;
-  int width = 0, height = 0, stride = 0;
-
-  [[nodiscard]] float* row(int v) const { return pixels + static_cast<std::ptrdiff_t>(v) * stride; }
-};
 
 /// Lowe's scale space: octaves of an image, each of `layers` + 3 levels, each level smoother than the one
 /// before by the factor 2^(1 / layers). The first octave is the image doubled, each other one half of the
