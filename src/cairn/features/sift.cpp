@@ -10,7 +10,6 @@
 #include "cairn/core/error.h"
 #include "cairn/features/sift_descriptor.h"
 #include "cairn/features/sift_orientation.h"
-#include "cairn/features/sift_patch.h"
 #include "cairn/features/sift_scale_space.h"
 #include "cairn/features/sift_selection.h"
 
@@ -101,7 +100,6 @@ class SiftExtractor : public Extractor {
     std::vector<std::vector<Described>> described((points.size() + kGrain - 1) / kGrain);
     executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (i + 1 < end) prefetch_patch(space, points[i + 1]);
         for (const float angle_deg : sift_orientations(space, points[i])) {
           Described& feature = described[begin / kGrain].emplace_back();
           feature.keypoint = keypoint_of(space, points[i], angle_deg);

@@ -49,16 +49,18 @@ class Blur {
   /// Tile by tile, because of each row many are made.
   void blur_columns(int begin, int end, const PaddedRows& rows) const {
     const RowTable table(from_, begin, end, radius());
-    for (int x = 0; x < from_.stride; x += kTileColumns)
+    const int columns = round_up(from_.width, kBlurStep);
+    for (int x = 0; x < columns; x += kTileColumns)
       for (int v = begin; v < end; ++v)
         blur_kernels().sum_rows(table.at(v), 0, halved_.data(), radius() + 1, x,
-                                std::min(from_.stride, x + kTileColumns), rows.row(v - begin));
+                                std::min(columns, x + kTileColumns), rows.row(v - begin));
   }
 
   void blur_rows(int begin, int end, PaddedRows& rows) const {
     for (int v = begin; v < end; ++v) {
       rows.pad(v - begin);
-      blur_kernels().blur_row(rows.row(v - begin), weights_.data(), radius(), to_.stride, to_.row(v));
+      blur_kernels().blur_row(rows.row(v - begin), weights_.data(), radius(), round_up(to_.width, kBlurStep),
+                              to_.row(v));
     }
   }
 

@@ -12,7 +12,7 @@ struct SiftExtremaOptions {
   /// Smallest |D| at an extremum, as a share of the range of grey values and times the number of layers,
   /// because D falls with their distance: 0.04 / 3 of 255 are 3.4 grey levels. Weaker ones are noise
   /// (Lowe 2004, section 4).
-  double contrast = 0.02;
+  double contrast = 0.03;
   /// Largest ratio of the principal curvatures of D: above, it is an edge, along which the place is not
   /// defined (section 4.1).
   double edge_ratio = 10;

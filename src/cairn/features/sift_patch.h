@@ -18,7 +18,4 @@ struct Patch {
 /// Samples the level of the point's octave whose smoothing is nearest to the point's.
 void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch& patch, float* samples);
 
-/// Asks the processor for the pixels that a descriptor of the point will need.
-void prefetch_patch(const ScaleSpace& space, const ScalePoint& point);
-
 }  // namespace cairn

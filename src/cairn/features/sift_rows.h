@@ -14,7 +14,7 @@ namespace cairn {
 
 constexpr int kStripRows = 16;  ///< a strip's intermediate rows stay in the cache
 
-/// An image of floats in memory of someone else; rows are padded to a multiple of kBlurStep.
+/// An image of floats in memory of someone else; rows are readable to a multiple of kBlurStep.
 struct ScaleLevel {
   float* pixels = nullptr;
   int width = 0, height = 0, stride = 0;

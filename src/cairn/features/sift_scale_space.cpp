@@ -18,13 +18,20 @@ constexpr double kImageSigma = 0.25;
 
 using Octave = std::vector<ScaleLevel>;
 
+/// An odd number of cache lines: at a power of two, the pixels of a column would compete for the same place in
+/// the cache.
+int stride_of(int width) {
+  const int steps = (width + kBlurStep - 1) / kBlurStep;
+  return (steps % 2 == 0 ? steps + 1 : steps) * kBlurStep;
+}
+
 /// The sizes of all levels.
 std::vector<Octave> octaves_of(int width, int height, int layers) {
   require(layers >= 1, "an octave has at least one layer");
   std::vector<Octave> octaves;
   for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2)
     octaves.emplace_back(static_cast<std::size_t>(layers) + 3,
-                         ScaleLevel{nullptr, w, h, round_up(w, kBlurStep)});
+                         ScaleLevel{nullptr, w, h, stride_of(w)});
   return octaves;
 }
 
