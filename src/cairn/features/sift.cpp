@@ -63,17 +63,30 @@ Keypoint keypoint_of(const ScaleSpace& space, const ScalePoint& point, float ang
           static_cast<float>(std::max(1.0, sigma / kSiftSigma))};
 }
 
-Features first_of(const std::vector<std::vector<Described>>& parts, std::size_t count) {
-  std::size_t total = 0;
-  for (const auto& part : parts) total += part.size();
-  Features features{{}, Descriptors(Norm::l2, kSiftDescriptorBytes, std::min(total, count))};
-  for (const auto& part : parts) {
-    for (const Described& feature : part) {
-      if (features.keypoints.size() == count) return features;
-      std::copy(feature.descriptor.begin(), feature.descriptor.end(),
-                features.descriptors.row(features.keypoints.size()));
-      features.keypoints.push_back(feature.keypoint);
-    }
+/// The strongest points, spread over the image; they come strongest first.
+std::vector<ScalePoint> spread(const ScaleSpace& space, const std::vector<ScalePoint>& points,
+                               std::size_t count) {
+  std::vector<ImagePlace> places;
+  for (const ScalePoint& point : points) {
+    const auto pixel = static_cast<float>(ScaleSpace::pixel_size(point.octave));
+    places.push_back({pixel * point.x, pixel * point.y});
+  }
+  std::vector<ScalePoint> selected;
+  for (const std::size_t i : select_spread(places, space.width(), space.height(), count))
+    selected.push_back(points[i]);
+  return selected;
+}
+
+/// The same of features: points of several directions may have made more than wanted.
+Features spread(const ScaleSpace& space, const std::vector<Described>& described, std::size_t count) {
+  std::vector<ImagePlace> places;
+  for (const Described& feature : described) places.push_back({feature.keypoint.u, feature.keypoint.v});
+  const auto selected = select_spread(places, space.width(), space.height(), count);
+  Features features{{}, Descriptors(Norm::l2, kSiftDescriptorBytes, selected.size())};
+  for (const std::size_t i : selected) {
+    const auto& descriptor = described[i].descriptor;
+    std::copy(descriptor.begin(), descriptor.end(), features.descriptors.row(features.keypoints.size()));
+    features.keypoints.push_back(described[i].keypoint);
   }
   return features;
 }
@@ -85,29 +98,32 @@ class SiftExtractor : public Extractor {
   [[nodiscard]] Features extract(const GrayImage& image, const Executor& executor) const override {
     std::unique_ptr<ScaleSpace> space = pool_.take(image.width(), image.height());
     space->build(image, executor);
-    std::vector<ScalePoint> points = find_sift_extrema(*space, options_.extrema, executor);
-    points = select_spread(*space, std::move(points), options_.count);
-    Features features = describe(*space, points, executor);
+    const auto count = static_cast<std::size_t>(options_.count);
+    const auto points = spread(*space, find_sift_extrema(*space, options_.extrema, executor), count);
+    Features features = spread(*space, describe(*space, points, executor), count);
     pool_.give_back(std::move(space));
     return features;
   }
 
  private:
-  /// A feature for each direction of each point, no more than wanted. Direction and descriptor are of the
-  /// same pixels, so one follows the other while these are in the cache.
-  [[nodiscard]] Features describe(const ScaleSpace& space, const std::vector<ScalePoint>& points,
-                                  const Executor& executor) const {
-    std::vector<std::vector<Described>> described((points.size() + kGrain - 1) / kGrain);
+  /// A feature for each direction of each point. Directions and descriptors are of the same pixels, so one
+  /// follows the other while these are in the cache.
+  [[nodiscard]] std::vector<Described> describe(const ScaleSpace& space,
+                                                const std::vector<ScalePoint>& points,
+                                                const Executor& executor) const {
+    std::vector<std::vector<Described>> chunks((points.size() + kGrain - 1) / kGrain);
     executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         for (const float angle_deg : sift_orientations(space, points[i])) {
-          Described& feature = described[begin / kGrain].emplace_back();
+          Described& feature = chunks[begin / kGrain].emplace_back();
           feature.keypoint = keypoint_of(space, points[i], angle_deg);
           describe_sift(space, points[i], angle_deg, options_.root, feature.descriptor.data());
         }
       }
     });
-    return first_of(described, static_cast<std::size_t>(options_.count));
+    std::vector<Described> described;
+    for (const auto& chunk : chunks) described.insert(described.end(), chunk.begin(), chunk.end());
+    return described;
   }
 
   SiftOptions options_;

@@ -73,8 +73,8 @@ class Blur {
 }  // namespace
 
 std::vector<float> gaussian_weights(double sigma) {
-  // Sampled and truncated, a Gaussian is narrower than it should be; it is widened until its variance is right,
-  // so that scales are.
+  // Sampled and truncated, a Gaussian is narrower than it should be; it is widened until its variance is
+  // right, so that scales are.
   const int radius = static_cast<int>(std::lround(kTruncation * sigma));
   constexpr int kRounds = 10;
   double widened = sigma;

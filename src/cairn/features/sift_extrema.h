@@ -10,9 +10,9 @@ namespace cairn {
 
 struct SiftExtremaOptions {
   /// Smallest |D| at an extremum, as a share of the range of grey values and times the number of layers,
-  /// because D falls with their distance: 0.04 / 3 of 255 are 3.4 grey levels. Weaker ones are noise
-  /// (Lowe 2004, section 4).
-  double contrast = 0.03;
+  /// because D falls with their distance (Lowe 2004, section 4): 0.02 / 3 of 255 are 1.7 grey levels. That is
+  /// low, for dim images: where there is more than wanted, the weakest are left out anyway.
+  double contrast = 0.02;
   /// Largest ratio of the principal curvatures of D: above, it is an edge, along which the place is not
   /// defined (section 4.1).
   double edge_ratio = 10;

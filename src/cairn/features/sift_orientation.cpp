@@ -35,7 +35,8 @@ Weights make_weights() {
 
 /// Values around bin b, circular.
 float at(const Histogram& histogram, int b) {
-  return histogram[static_cast<std::size_t>((b + kOrientationBins) % kOrientationBins)];
+  if (b < 0) b += kOrientationBins;
+  return histogram[static_cast<std::size_t>(b < kOrientationBins ? b : b - kOrientationBins)];
 }
 
 /// Binomial filter over five bins.

@@ -74,8 +74,8 @@ class Doubling {
     const RowTable table(wide, 0, wide.height, kReach);
     for (int v = begin; v < end; ++v) {
       const Phase& phase = v % 2 == 0 ? phases_.at_pixel : phases_.between;
-      blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, phase.weights.data(), phase.pairs, 0, round_up(to.width, kBlurStep),
-                              to.row(v));
+      blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, phase.weights.data(), phase.pairs, 0,
+                              round_up(to.width, kBlurStep), to.row(v));
     }
   }
 

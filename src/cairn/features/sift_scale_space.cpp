@@ -12,14 +12,14 @@ namespace cairn {
 namespace {
 
 constexpr int kSmallestSide = 16;  // octave pixels: below, no keypoint has room for its surroundings
-// Pixels: blur that the image has. Lowe assumes 0.5 (section 3.3) but doubles by linear interpolation, whose own
-// blur comes on top; here one Gaussian smooths as much as both.
+// Pixels: blur that the image has. Lowe assumes 0.5 (section 3.3) but doubles by linear interpolation, whose
+// own blur comes on top; here one Gaussian smooths as much as both.
 constexpr double kImageSigma = 0.25;
 
 using Octave = std::vector<ScaleLevel>;
 
-/// An odd number of cache lines: at a power of two, the pixels of a column would compete for the same place in
-/// the cache.
+/// An odd number of cache lines: at a power of two, the pixels of a column would compete for the same place
+/// in the cache.
 int stride_of(int width) {
   const int steps = (width + kBlurStep - 1) / kBlurStep;
   return (steps % 2 == 0 ? steps + 1 : steps) * kBlurStep;
@@ -30,8 +30,7 @@ std::vector<Octave> octaves_of(int width, int height, int layers) {
   require(layers >= 1, "an octave has at least one layer");
   std::vector<Octave> octaves;
   for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2)
-    octaves.emplace_back(static_cast<std::size_t>(layers) + 3,
-                         ScaleLevel{nullptr, w, h, stride_of(w)});
+    octaves.emplace_back(static_cast<std::size_t>(layers) + 3, ScaleLevel{nullptr, w, h, stride_of(w)});
   return octaves;
 }
 
@@ -77,7 +76,8 @@ void ScaleSpace::build(const GrayImage& image, const Executor& executor) {
     Octave& octave = octaves_[o];
     if (o == 0) {
       constexpr double kFirstSigma = kSiftSigma / 2;  // in pixels of the image
-      double_smoothed(image, std::sqrt(kFirstSigma * kFirstSigma - kImageSigma * kImageSigma), octave[0], executor);
+      double_smoothed(image, std::sqrt(kFirstSigma * kFirstSigma - kImageSigma * kImageSigma), octave[0],
+                      executor);
     } else {
       halve(octaves_[o - 1][layers], octave[0]);
     }
