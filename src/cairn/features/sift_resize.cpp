@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/features/sift_resize.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "cairn/features/kernels/blur_kernels.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kReach = 2;  // pixels around the nearest two: 3 standard deviations of the first blur
+
+/// Weights of the pixels around a point: those k pixels beyond the nearest on either side.
+struct Phase {
+  std::array<float, kReach + 1> weights{};
+  int pairs = kReach + 1;
+};
+
+/// How pixels at even places and at odd ones, between pixels, are made.
+struct Phases {
+  Phase at_pixel, between;
+};
+
+Phase gaussian_phase(double sigma, double offset) {
+  Phase phase;
+  std::array<double, kReach + 1> weights{};
+  double sum = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const double distance = offset + static_cast<double>(k);
+    weights[k] = distance > kReach ? 0 : std::exp(-distance * distance / (2 * sigma * sigma));
+    if (distance == 0) weights[k] /= 2;  // the centre is added to itself
+    sum += 2 * weights[k];
+  }
+  for (std::size_t k = 0; k < weights.size(); ++k) phase.weights[k] = static_cast<float>(weights[k] / sum);
+  return phase;
+}
+
+/// Lagrange's polynomial through six pixels, half-way between the middle two.
+Phases interpolation() {
+  return {{{0.5F}, 1}, {{150.0F / 256, -25.0F / 256, 3.0F / 256}, kReach + 1}};
+}
+
+/// Doubles rows first, then columns.
+class Doubling {
+ public:
+  /// copy_row(v, out) gives row v of the image of that size.
+  Doubling(int width, int height, std::function<void(int, float*)> copy_row, const Phases& phases)
+      : width_(width), height_(height), copy_row_(std::move(copy_row)), phases_(phases) {}
+
+  void run(const ScaleLevel& to, const Executor& executor) const {
+    constexpr int kRows = kStripRows / 2 + 2 * kReach + 1;
+    for_each_strip(
+        to.height, executor,
+        [&] {
+          return Scratch{AlignedFloats(kRows * static_cast<std::size_t>(to.stride)),
+                         PaddedRows(width_, 3, kReach + 1)};
+        },
+        [&](int begin, int end, Scratch& scratch) { double_strip(to, begin, end, scratch); });
+  }
+
+ private:
+  struct Scratch {
+    AlignedFloats wide;  ///< rows of twice the width
+    PaddedRows rows;     ///< one row; filtered at its pixels; filtered between them
+  };
+
+  void double_strip(const ScaleLevel& to, int begin, int end, Scratch& scratch) const {
+    const int first = begin / 2 - kReach, last = (end - 1) / 2 + kReach + 1;
+    const ScaleLevel wide{scratch.wide.data(), to.width, last - first + 1, to.stride};
+    for (int v = first; v <= last; ++v) double_row(v, scratch.rows, wide, wide.row(v - first));
+    const RowTable table(wide, 0, wide.height, kReach);
+    for (int v = begin; v < end; ++v) {
+      const Phase& phase = v % 2 == 0 ? phases_.at_pixel : phases_.between;
+      blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, phase.weights.data(), phase.pairs, 0,
+                              round_up(to.width, kBlurStep), to.row(v));
+    }
+  }
+
+  void double_row(int v, PaddedRows& rows, const ScaleLevel& to, float* out) const {
+    copy_row_(std::clamp(v, 0, height_ - 1), rows.row(0));
+    rows.pad(0);
+    const float *even = filter(rows, 0, phases_.at_pixel), *odd = filter(rows, 1, phases_.between);
+    for (int x = 0; x < to.width / 2; ++x) {
+      out[2 * x] = even[x];
+      out[2 * x + 1] = odd[x];
+    }
+    if (to.width % 2 == 1) out[to.width - 1] = even[to.width / 2];
+    std::fill(out + to.width, out + to.stride, out[to.width - 1]);
+  }
+
+  /// Along the row: the sum of the row moved by some pixels.
+  const float* filter(PaddedRows& rows, int shift, const Phase& phase) const {
+    std::array<const float*, 2 * kReach + 2> moved{};
+    for (std::size_t k = 0; k < moved.size(); ++k)
+      moved[k] = rows.row(0) + static_cast<std::ptrdiff_t>(k) - kReach;
+    float* out = rows.row(1 + shift);
+    blur_kernels().sum_rows(moved.data() + kReach, shift, phase.weights.data(), phase.pairs, 0,
+                            round_up(width_, kBlurStep), out);
+    return out;
+  }
+
+  int width_, height_;
+  std::function<void(int, float*)> copy_row_;
+  Phases phases_;
+};
+
+}  // namespace
+
+void double_smoothed(const GrayImage& image, double sigma, const ScaleLevel& to, const Executor& executor) {
+  const Phases phases{gaussian_phase(sigma, 0), gaussian_phase(sigma, 0.5)};
+  const auto copy_row = [&](int v, float* out) { std::copy_n(image.row(v), image.width(), out); };
+  Doubling(image.width(), image.height(), copy_row, phases).run(to, executor);
+}
+
+void double_smooth(const ScaleLevel& from, const ScaleLevel& to, const Executor& executor) {
+  const auto copy_row = [&](int v, float* out) { std::copy_n(from.row(v), from.width, out); };
+  Doubling(from.width, from.height, copy_row, interpolation()).run(to, executor);
+}
+
+void halve(const ScaleLevel& from, const ScaleLevel& to) {
+  for (int v = 0; v < to.height; ++v) {
+    const float* in = from.row(2 * v);
+    float* out = to.row(v);
+    for (int x = 0; x < to.width; ++x) out[x] = in[2 * x];
+    std::fill(out + to.width, out + to.stride, out[to.width - 1]);
+  }
+}
+
+}  // namespace cairn
