@@ -14,6 +14,8 @@ namespace {
 
 constexpr int kBorder = 5;      // octave pixels: nearer to the border, D is made of repeated pixels
 constexpr int kStripRows = 32;  // rows that one thread searches at a time
+constexpr int kRowsAhead = 3;
+constexpr int kCacheLine = 16;  // floats
 constexpr int kMaxMoves = 5;    // from pixel to pixel towards the extremum (Lowe's own number is not given)
 constexpr double kGreyRange = 255;
 constexpr double kFirstShare =
@@ -85,12 +87,22 @@ class StripSearch {
 
   /// Rows [begin, end), at least kBorder away from the image's border.
   std::vector<ScalePoint> search(int begin, int end) {
-    for (int y = begin; y < end; ++y)
+    for (int y = begin; y < end; ++y) {
+      prefetch(y + kRowsAhead);
       for (int level = 1; level <= space_.layers(); ++level) search_row(y, level);
+    }
     return std::move(points_);
   }
 
  private:
+  /// There are more rows to read side by side than the processor foresees.
+  void prefetch(int y) const {
+    if (y >= height_) return;
+    for (int level = 0; level < space_.layers() + 3; ++level)
+      for (int x = 0; x < width_; x += kCacheLine)
+        __builtin_prefetch(space_.level(octave_, level).row(y) + x, 0, 2);
+  }
+
   void search_row(int y, int level) {
     GaussianRows rows{};
     for (int i = 0; i < 4; ++i)

@@ -51,27 +51,17 @@ class Doubling {
       : width_(width), height_(height), copy_row_(std::move(copy_row)), phases_(phases) {}
 
   void run(const ScaleLevel& to, const Executor& executor) const {
-    constexpr int kRows = kStripRows / 2 + 2 * kReach + 1;
-    for_each_strip(
-        to.height, executor,
-        [&] {
-          return Scratch{AlignedFloats(kRows * static_cast<std::size_t>(to.stride)),
-                         PaddedRows(width_, 3, kReach + 1)};
-        },
-        [&](int begin, int end, Scratch& scratch) { double_strip(to, begin, end, scratch); });
+    for_each_strip(to.height, executor, [&](int begin, int end) { double_strip(to, begin, end); });
   }
 
  private:
-  struct Scratch {
-    AlignedFloats wide;  ///< rows of twice the width
-    PaddedRows rows;     ///< one row; filtered at its pixels; filtered between them
-  };
-
-  void double_strip(const ScaleLevel& to, int begin, int end, Scratch& scratch) const {
-    const int first = begin / 2 - kReach, last = (end - 1) / 2 + kReach + 1;
-    const ScaleLevel wide{scratch.wide.data(), to.width, last - first + 1, to.stride};
-    for (int v = first; v <= last; ++v) double_row(v, scratch.rows, wide, wide.row(v - first));
-    const RowTable table(wide, 0, wide.height, kReach);
+  void double_strip(const ScaleLevel& to, int begin, int end) const {
+    const int first = begin / 2 - kReach, last = (end - 1) / 2 + kReach + 1, rows = last - first + 1;
+    const AlignedFloats floats(static_cast<std::size_t>(rows) * static_cast<std::size_t>(to.stride));
+    const ScaleLevel wide{floats.data(), to.width, rows, to.stride};  // twice as wide only
+    PaddedRows phases(width_, 3, kReach + 1);
+    for (int v = first; v <= last; ++v) double_row(v, phases, wide, wide.row(v - first));
+    const RowTable table(wide, 0, rows, kReach);
     for (int v = begin; v < end; ++v) {
       const Phase& phase = v % 2 == 0 ? phases_.at_pixel : phases_.between;
       blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, phase.weights.data(), phase.pairs, 0,
@@ -79,6 +69,7 @@ class Doubling {
     }
   }
 
+  /// One row; `rows` are room for it, for what is filtered at its pixels, and for that between them.
   void double_row(int v, PaddedRows& rows, const ScaleLevel& to, float* out) const {
     copy_row_(std::clamp(v, 0, height_ - 1), rows.row(0));
     rows.pad(0);
