@@ -10,12 +10,14 @@
 #include "cairn/core/error.h"
 #include "cairn/features/sift_descriptor.h"
 #include "cairn/features/sift_orientation.h"
+#include "cairn/features/sift_patch.h"
 #include "cairn/features/sift_scale_space.h"
 #include "cairn/features/spread.h"
 
 namespace cairn {
 namespace {
 
+constexpr double kReach = 8;        // sigmas: most of a descriptor's patch, which is turned
 constexpr std::size_t kGrain = 32;  // points that one thread works on at a time
 
 struct Described {
@@ -114,6 +116,7 @@ class SiftExtractor : public Extractor {
     std::vector<std::vector<Described>> chunks((points.size() + kGrain - 1) / kGrain);
     executor.for_each_chunk(points.size(), kGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
+        if (i + 1 < end) prefetch_patch(space, points[i + 1], kReach);
         for (const float angle_deg : sift_orientations(space, points[i])) {
           Described& feature = chunks[begin / kGrain].emplace_back();
           feature.keypoint = keypoint_of(space, points[i], angle_deg);

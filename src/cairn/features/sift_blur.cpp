@@ -9,7 +9,6 @@ namespace cairn {
 namespace {
 
 constexpr double kTruncation = 2.5;  // standard deviations on either side; more finds no better features
-constexpr int kTileColumns = 256;    // with the rows that a strip needs: 35 KB
 
 double variance_of(const std::vector<double>& weights) {
   double sum = weights[0], squares = 0;
@@ -35,33 +34,21 @@ class Blur {
   }
 
   void run(const Executor& executor) const {
-    for_each_strip(
-        to_.height, executor, [&] { return PaddedRows(from_.width, kStripRows, radius()); },
-        [&](int begin, int end, PaddedRows& rows) {
-          blur_columns(begin, end, rows);
-          blur_rows(begin, end, rows);
-        });
+    for_each_strip(to_.height, executor, [&](int begin, int end) {
+      const RowTable table(from_, begin, end, radius());
+      PaddedRows between(from_.width, 1, radius());
+      for (int v = begin; v < end; ++v) blur_row(table.at(v), between, to_.row(v));
+    });
   }
 
  private:
   [[nodiscard]] int radius() const { return static_cast<int>(weights_.size()) - 1; }
 
-  /// Tile by tile, because of each row many are made.
-  void blur_columns(int begin, int end, const PaddedRows& rows) const {
-    const RowTable table(from_, begin, end, radius());
+  void blur_row(const float* const* rows, PaddedRows& between, float* out) const {
     const int columns = round_up(from_.width, kBlurStep);
-    for (int x = 0; x < columns; x += kTileColumns)
-      for (int v = begin; v < end; ++v)
-        blur_kernels().sum_rows(table.at(v), 0, halved_.data(), radius() + 1, x,
-                                std::min(columns, x + kTileColumns), rows.row(v - begin));
-  }
-
-  void blur_rows(int begin, int end, PaddedRows& rows) const {
-    for (int v = begin; v < end; ++v) {
-      rows.pad(v - begin);
-      blur_kernels().blur_row(rows.row(v - begin), weights_.data(), radius(), round_up(to_.width, kBlurStep),
-                              to_.row(v));
-    }
+    blur_kernels().sum_rows(rows, 0, halved_.data(), radius() + 1, 0, columns, between.row(0));
+    between.pad(0);
+    blur_kernels().blur_row(between.row(0), weights_.data(), radius(), columns, out);
   }
 
   const ScaleLevel& from_;

@@ -12,12 +12,16 @@
 namespace cairn {
 namespace {
 
-constexpr int kBorder = 5;      // octave pixels: nearer to the border, D is made of repeated pixels
-constexpr int kStripRows = 32;  // rows that one thread searches at a time
-constexpr int kMaxMoves = 5;    // from pixel to pixel towards the extremum (Lowe's own number is not given)
+constexpr int kBorder = 5;    // octave pixels: nearer to the border, D is made of repeated pixels
+constexpr int kMaxMoves = 5;  // from pixel to pixel towards the extremum
+constexpr int kReach = 2;     // pixels on either side: an extremum farther off is found from elsewhere
 constexpr double kGreyRange = 255;
-constexpr double kFirstShare =
-    0.8;  // of the contrast, at a pixel: between pixels the parabola may reach the whole
+// Of the contrast, at a pixel: between pixels and levels the parabola may reach the whole.
+constexpr double kFirstShare = 0.8;
+constexpr int kStripRows = 64;   // that one thread searches at a time
+constexpr int kRowsAhead = 3;    // that are asked for before their turn
+constexpr int kCacheLine = 16;   // floats
+constexpr int kSecondCache = 2;  // __builtin_prefetch's name for it
 
 struct Place {
   int x, y, level;
@@ -34,13 +38,13 @@ struct Derivatives {
 };
 
 /// D(x, y, level) = G(level + 1) - G(level).
-double difference(const ScaleSpace& space, int octave, int x, int y, int level) {
-  return static_cast<double>(space.level(octave, level + 1).row(y)[x] - space.level(octave, level).row(y)[x]);
+double difference(const OctaveRows& rows, int x, int y, int level) {
+  return static_cast<double>(rows.row(level + 1, y)[x] - rows.row(level, y)[x]);
 }
 
-Derivatives derivatives_at(const ScaleSpace& space, int octave, const Place& at) {
+Derivatives derivatives_at(const OctaveRows& rows, const Place& at) {
   const auto d = [&](int dx, int dy, int ds) {
-    return difference(space, octave, at.x + dx, at.y + dy, at.level + ds);
+    return difference(rows, at.x + dx, at.y + dy, at.level + ds);
   };
   const double centre2 = 2 * d(0, 0, 0);
   const double left = d(-1, 0, 0), right = d(1, 0, 0), up = d(0, -1, 0), down = d(0, 1, 0);
@@ -71,30 +75,43 @@ bool is_corner(const Derivatives& D, double ratio) {
   return determinant > 0 && trace * trace * ratio < (ratio + 1) * (ratio + 1) * determinant;
 }
 
-/// Searches one strip of one octave.
+/// Rows [begin, end) of an octave, at least kBorder away from its border.
+struct Strip {
+  int octave, begin, end;
+};
+
 class StripSearch {
  public:
-  StripSearch(const ScaleSpace& space, const SiftExtremaOptions& options, int octave)
-      : space_(space),
-        octave_(octave),
-        width_(space.level(octave, 0).width),
-        height_(space.level(octave, 0).height),
+  StripSearch(const ScaleSpace& space, const SiftExtremaOptions& options, const Strip& strip)
+      : strip_(strip),
+        width_(space.level(strip.octave, 0).width),
+        layers_(space.layers()),
         threshold_(options.contrast / space.layers() * kGreyRange),
         edge_ratio_(options.edge_ratio),
+        rows_(space, strip.octave, strip.begin - kReach - 1, strip.end + kReach + 1),
         found_(static_cast<std::size_t>(width_)) {}
 
-  /// Rows [begin, end), at least kBorder away from the image's border.
-  std::vector<ScalePoint> search(int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int level = 1; level <= space_.layers(); ++level) search_row(y, level);
+  std::vector<ScalePoint> search() {
+    for (int y = strip_.begin; y < strip_.end; ++y) {
+      prefetch(y + kRowsAhead);
+      for (int level = 1; level <= layers_; ++level) search_row(y, level);
+    }
     return std::move(points_);
   }
 
  private:
+  /// There are more rows to read side by side than the processor foresees.
+  void prefetch(int y) const {
+    if (y >= rows_.end()) return;
+    for (int level = 0; level < layers_ + 3; ++level)
+      for (int x = 0; x < width_; x += kCacheLine)
+        __builtin_prefetch(rows_.row(level, y) + x, 0, kSecondCache);
+  }
+
   void search_row(int y, int level) {
     GaussianRows rows{};
     for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 3; ++j) rows.rows[i][j] = space_.level(octave_, level - 1 + i).row(y - 1 + j);
+      for (int j = 0; j < 3; ++j) rows.rows[i][j] = rows_.row(level - 1 + i, y - 1 + j);
     const int count = extrema_kernels().find(rows, kBorder, width_ - kBorder,
                                              static_cast<float>(kFirstShare * threshold_), found_.data());
     for (int i = 0; i < count; ++i) {
@@ -104,50 +121,47 @@ class StripSearch {
   }
 
   /// Moves to the pixel and level nearest to the parabola's extremum until it stays.
-  [[nodiscard]] std::optional<ScalePoint> refine(Place at) const {
+  [[nodiscard]] std::optional<ScalePoint> refine(const Place& start) const {
+    Place at = start;
     for (int move = 0; move < kMaxMoves; ++move) {
-      const Derivatives derivatives = derivatives_at(space_, octave_, at);
+      const Derivatives derivatives = derivatives_at(rows_, at);
       const auto offset = parabola_offset(derivatives);
       if (!offset) return std::nullopt;
       constexpr double kHalf = 0.5;
       if (std::abs(offset->x) <= kHalf && std::abs(offset->y) <= kHalf && std::abs(offset->s) <= kHalf)
         return accept(at, derivatives, *offset);
-      // Far off, the parabola means nothing, nor can it be followed beyond the levels.
-      if (std::abs(offset->x) > width_ || std::abs(offset->y) > height_ ||
-          std::abs(offset->s) > space_.layers())
+      if (std::abs(offset->x) > kReach + 1 || std::abs(offset->y) > kReach + 1 ||
+          std::abs(offset->s) > layers_)
         return std::nullopt;
       at.x += static_cast<int>(std::lround(offset->x));
       at.y += static_cast<int>(std::lround(offset->y));
       at.level += static_cast<int>(std::lround(offset->s));
-      if (!contains(at)) return std::nullopt;
+      if (!is_near(at, start)) return std::nullopt;
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] bool contains(const Place& at) const {
-    return at.x >= kBorder && at.x < width_ - kBorder && at.y >= kBorder && at.y < height_ - kBorder &&
-           at.level >= 1 && at.level <= space_.layers();
+  [[nodiscard]] bool is_near(const Place& at, const Place& start) const {
+    return std::abs(at.x - start.x) <= kReach && std::abs(at.y - start.y) <= kReach && at.level >= 1 &&
+           at.level <= layers_;
   }
 
   [[nodiscard]] std::optional<ScalePoint> accept(const Place& at, const Derivatives& derivatives,
                                                  const Vector3& offset) const {
     const Vector3& g = derivatives.gradient;
-    const double value = difference(space_, octave_, at.x, at.y, at.level) +
-                         (g.x * offset.x + g.y * offset.y + g.s * offset.s) / 2;
+    const double value =
+        difference(rows_, at.x, at.y, at.level) + (g.x * offset.x + g.y * offset.y + g.s * offset.s) / 2;
     if (std::abs(value) < threshold_ || !is_corner(derivatives, edge_ratio_)) return std::nullopt;
-    return ScalePoint{octave_, static_cast<float>(at.x + offset.x), static_cast<float>(at.y + offset.y),
+    return ScalePoint{strip_.octave, static_cast<float>(at.x + offset.x), static_cast<float>(at.y + offset.y),
                       static_cast<float>(at.level + offset.s), static_cast<float>(std::abs(value))};
   }
 
-  const ScaleSpace& space_;
-  int octave_, width_, height_;
+  Strip strip_;
+  int width_, layers_;
   double threshold_, edge_ratio_;
+  OctaveRows rows_;
   std::vector<int> found_;
   std::vector<ScalePoint> points_;
-};
-
-struct Strip {
-  int octave, begin, end;
 };
 
 std::vector<Strip> strips_of(const ScaleSpace& space) {
@@ -174,9 +188,8 @@ bool is_same(const ScalePoint& a, const ScalePoint& b) {
 std::vector<ScalePoint> find_sift_extrema(const ScaleSpace& space, const SiftExtremaOptions& options,
                                           const Executor& executor) {
   const std::vector<Strip> strips = strips_of(space);
-  const auto found = executor.map<std::vector<ScalePoint>>(strips.size(), [&](std::size_t i) {
-    return StripSearch(space, options, strips[i].octave).search(strips[i].begin, strips[i].end);
-  });
+  const auto found = executor.map<std::vector<ScalePoint>>(
+      strips.size(), [&](std::size_t i) { return StripSearch(space, options, strips[i]).search(); });
   std::vector<ScalePoint> points;
   for (const auto& part : found) points.insert(points.end(), part.begin(), part.end());
   std::sort(points.begin(), points.end(), is_before);

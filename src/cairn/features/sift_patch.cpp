@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/sift_patch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -41,6 +42,19 @@ void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch&
                        static_cast<float>(step * std::sin(angle)),
                        static_cast<float>(patch.gradients) / 2};
   patch_kernels().sample(grid, patch.side, samples);
+}
+
+void prefetch_patch(const ScaleSpace& space, const ScalePoint& point, double reach) {
+  constexpr int kCacheLine = 16;  // floats
+  constexpr int kSecondCache = 2;
+  const Seen seen = see(space, point);
+  const auto radius = static_cast<float>(reach * seen.sigma);
+  const int left = std::max(0, static_cast<int>(seen.x - radius)) / kCacheLine * kCacheLine;
+  const int right = std::min(seen.level.width - 1, static_cast<int>(seen.x + radius));
+  const int bottom = std::min(seen.level.height - 1, static_cast<int>(seen.y + radius));
+  for (int v = std::max(0, static_cast<int>(seen.y - radius)); v <= bottom; ++v)
+    for (int u = left; u <= right; u += kCacheLine)
+      __builtin_prefetch(seen.level.row(v) + u, 0, kSecondCache);
 }
 
 }  // namespace cairn

@@ -18,4 +18,7 @@ struct Patch {
 /// Samples the level of the point's octave whose smoothing is nearest to the point's.
 void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch& patch, float* samples);
 
+/// Asks the processor for the pixels of patches that reach `reach` sigmas around the point, in good time.
+void prefetch_patch(const ScaleSpace& space, const ScalePoint& point, double reach);
+
 }  // namespace cairn

@@ -50,35 +50,23 @@ class Doubling {
   Doubling(int width, int height, std::function<void(int, float*)> copy_row, const Phases& phases)
       : width_(width), height_(height), copy_row_(std::move(copy_row)), phases_(phases) {}
 
-  void run(const ScaleLevel& to, const Executor& executor) const {
-    constexpr int kRows = kStripRows / 2 + 2 * kReach + 1;
-    for_each_strip(
-        to.height, executor,
-        [&] {
-          return Scratch{AlignedFloats(kRows * static_cast<std::size_t>(to.stride)),
-                         PaddedRows(width_, 3, kReach + 1)};
-        },
-        [&](int begin, int end, Scratch& scratch) { double_strip(to, begin, end, scratch); });
-  }
-
- private:
-  struct Scratch {
-    AlignedFloats wide;  ///< rows of twice the width
-    PaddedRows rows;     ///< one row; filtered at its pixels; filtered between them
-  };
-
-  void double_strip(const ScaleLevel& to, int begin, int end, Scratch& scratch) const {
-    const int first = begin / 2 - kReach, last = (end - 1) / 2 + kReach + 1;
-    const ScaleLevel wide{scratch.wide.data(), to.width, last - first + 1, to.stride};
-    for (int v = first; v <= last; ++v) double_row(v, scratch.rows, wide, wide.row(v - first));
-    const RowTable table(wide, 0, wide.height, kReach);
+  /// Rows [begin, end) of the doubled image; row `begin` becomes row 0 of `to`.
+  void run(int begin, int end, const ScaleLevel& to) const {
+    const int first = begin / 2 - kReach, last = (end - 1) / 2 + kReach + 1, rows = last - first + 1;
+    const AlignedFloats floats(static_cast<std::size_t>(rows) * static_cast<std::size_t>(to.stride));
+    const ScaleLevel wide{floats.data(), to.width, rows, to.stride};  // twice as wide only
+    PaddedRows phases(width_, 3, kReach + 1);
+    for (int v = first; v <= last; ++v) double_row(v, phases, wide, wide.row(v - first));
+    const RowTable table(wide, 0, rows, kReach);
     for (int v = begin; v < end; ++v) {
       const Phase& phase = v % 2 == 0 ? phases_.at_pixel : phases_.between;
       blur_kernels().sum_rows(table.at(v / 2 - first), v % 2, phase.weights.data(), phase.pairs, 0,
-                              round_up(to.width, kBlurStep), to.row(v));
+                              round_up(to.width, kBlurStep), to.row(v - begin));
     }
   }
 
+ private:
+  /// One row; `rows` are room for it, for what is filtered at its pixels, and for that between them.
   void double_row(int v, PaddedRows& rows, const ScaleLevel& to, float* out) const {
     copy_row_(std::clamp(v, 0, height_ - 1), rows.row(0));
     rows.pad(0);
@@ -112,12 +100,15 @@ class Doubling {
 void double_smoothed(const GrayImage& image, double sigma, const ScaleLevel& to, const Executor& executor) {
   const Phases phases{gaussian_phase(sigma, 0), gaussian_phase(sigma, 0.5)};
   const auto copy_row = [&](int v, float* out) { std::copy_n(image.row(v), image.width(), out); };
-  Doubling(image.width(), image.height(), copy_row, phases).run(to, executor);
+  const Doubling doubling(image.width(), image.height(), copy_row, phases);
+  for_each_strip(to.height, executor, [&](int begin, int end) {
+    doubling.run(begin, end, {to.row(begin), to.width, end - begin, to.stride});
+  });
 }
 
-void double_smooth(const ScaleLevel& from, const ScaleLevel& to, const Executor& executor) {
+void double_smooth(const ScaleLevel& from, int begin, int end, const ScaleLevel& to) {
   const auto copy_row = [&](int v, float* out) { std::copy_n(from.row(v), from.width, out); };
-  Doubling(from.width, from.height, copy_row, interpolation()).run(to, executor);
+  Doubling(from.width, from.height, copy_row, interpolation()).run(begin, end, to);
 }
 
 void halve(const ScaleLevel& from, const ScaleLevel& to) {

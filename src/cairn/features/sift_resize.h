@@ -13,9 +13,10 @@ namespace cairn {
 /// image's pixels, evaluated at pixels and half-way between them. `to` has twice the image's size.
 void double_smoothed(const GrayImage& image, double sigma, const ScaleLevel& to, const Executor& executor);
 
-/// Doubles by the interpolation of fifth order, for images so smooth that it changes nothing: twice
-/// kSiftSigma pixels of `to`. `to` may have one column or row less than twice as many.
-void double_smooth(const ScaleLevel& from, const ScaleLevel& to, const Executor& executor);
+/// Rows [begin, end) of the doubled image by interpolation of fifth order, for images so smooth that it
+/// changes nothing: kSiftSigma of their pixels. Row `begin` becomes row 0 of `to`, which may be one column
+/// narrower than twice `from`.
+void double_smooth(const ScaleLevel& from, int begin, int end, const ScaleLevel& to);
 
 /// Every second pixel of every second row.
 void halve(const ScaleLevel& from, const ScaleLevel& to);

@@ -12,7 +12,7 @@
 /// What filters of the scale space's levels have in common.
 namespace cairn {
 
-constexpr int kStripRows = 16;  ///< a strip's intermediate rows stay in the cache
+constexpr int kStripRows = 64;  ///< that one thread works on: intermediate rows of a strip stay in its cache
 
 /// An image of floats in memory of someone else; rows are readable to a multiple of kBlurStep.
 struct ScaleLevel {
@@ -62,18 +62,12 @@ class RowTable {
   std::vector<const float*> rows_;
 };
 
-/// Calls work(begin, end, scratch) for strips of rows.
-template <class Scratch, class Work>
-void for_each_strip(int height, const Executor& executor, const Scratch& make_scratch, const Work& work) {
-  constexpr std::size_t kGrain = 4;  // strips that one thread works on with the same scratch
-  const auto strips = static_cast<std::size_t>((height + kStripRows - 1) / kStripRows);
-  executor.for_each_chunk(strips, kGrain, [&](std::size_t first, std::size_t last) {
-    auto scratch = make_scratch();
-    for (std::size_t strip = first; strip < last; ++strip) {
-      const int begin = static_cast<int>(strip) * kStripRows;
-      work(begin, std::min(height, begin + kStripRows), scratch);
-    }
-  });
+/// Calls work(begin, end) for strips of rows.
+template <class Work>
+void for_each_strip(int height, const Executor& executor, const Work& work) {
+  executor.for_each_chunk(
+      static_cast<std::size_t>(height), kStripRows,
+      [&](std::size_t begin, std::size_t end) { work(static_cast<int>(begin), static_cast<int>(end)); });
 }
 
 }  // namespace cairn

@@ -30,7 +30,8 @@ std::vector<Octave> octaves_of(int width, int height, int layers) {
   require(layers >= 1, "an octave has at least one layer");
   std::vector<Octave> octaves;
   for (int w = 2 * width, h = 2 * height; std::min(w, h) >= kSmallestSide; w = (w + 1) / 2, h = (h + 1) / 2)
-    octaves.emplace_back(static_cast<std::size_t>(layers) + 3, ScaleLevel{nullptr, w, h, stride_of(w)});
+    octaves.emplace_back(std::max(layers, 2) + 1, ScaleLevel{nullptr, w, h, stride_of(w)});
+  if (!octaves.empty()) octaves.back().resize(static_cast<std::size_t>(layers) + 3, octaves.back().front());
   return octaves;
 }
 
@@ -81,12 +82,24 @@ void ScaleSpace::build(const GrayImage& image, const Executor& executor) {
     } else {
       halve(octaves_[o - 1][layers], octave[0]);
     }
-    const std::size_t last = o + 1 < octaves_.size() ? layers : layers + 2;
-    for (std::size_t i = 0; i < last; ++i) blur(octave[i], blurs_[i], octave[i + 1], executor);
+    for (std::size_t i = 0; i + 1 < octave.size(); ++i) blur(octave[i], blurs_[i], octave[i + 1], executor);
   }
-  // The two coarsest levels are levels 1 and 2 of the next octave, which is sampled densely enough for both.
-  for (std::size_t o = octaves_.size(); o-- > 1;)
-    for (const std::size_t i : {1, 2}) double_smooth(octaves_[o][i], octaves_[o - 1][layers + i], executor);
+}
+
+OctaveRows::OctaveRows(const ScaleSpace& space, int octave, int begin, int end)
+    : begin_(std::max(0, begin)),
+      end_(std::min(space.level(octave, 0).height, end)),
+      made_(2 * static_cast<std::size_t>(end_ - begin_) *
+            static_cast<std::size_t>(space.level(octave, 0).stride)) {
+  const ScaleLevel& base = space.level(octave, 0);
+  for (int i = 0; i < space.level_count(octave); ++i)
+    levels_.push_back({space.level(octave, i).row(begin_), base.width, end_ - begin_, base.stride});
+  float* pixels = made_.data();
+  for (int i = space.level_count(octave); i < space.layers() + 3; ++i) {
+    levels_.push_back({pixels, base.width, end_ - begin_, base.stride});
+    double_smooth(space.level(octave + 1, i - space.layers()), begin_, end_, levels_.back());
+    pixels = levels_.back().row(end_ - begin_);
+  }
 }
 
 }  // namespace cairn

@@ -18,10 +18,13 @@ constexpr double kSiftSigma = 1.6;
 /// octave before. Pixel (x, y) of octave o lies at (x, y) * pixel_size(o) of the image, without an offset:
 /// the doubling interpolates between pixels, the halving takes every second one.
 ///
+/// The two coarsest levels of an octave are levels 1 and 2 of the next, which has pixels enough for both; so
+/// only the last octave holds all, and OctaveRows makes the others where they are needed.
+///
 /// D. G. Lowe, "Distinctive Image Features from Scale-Invariant Keypoints", IJCV 60(2), 2004, section 3.
 class ScaleSpace {
  public:
-  /// Takes memory for images of this size: about 42 bytes * width * height * (layers + 3) / 2. layers >= 1.
+  /// Takes memory for images of this size: about 21 bytes * width * height * (layers + 1). layers >= 1.
   ScaleSpace(int width, int height, int layers);
 
   /// Fills all levels from `image`, which has the size given above. Grey values stay 0 to 255.
@@ -32,7 +35,11 @@ class ScaleSpace {
   [[nodiscard]] int layers() const { return layers_; }
   /// 0 where the image is too small for a single one.
   [[nodiscard]] int octave_count() const { return static_cast<int>(octaves_.size()); }
-  /// Level in [0, layers + 3) of an octave.
+  /// Levels that an octave holds: layers + 1 but at least 3, the last octave layers + 3.
+  [[nodiscard]] int level_count(int octave) const {
+    return static_cast<int>(octaves_[static_cast<std::size_t>(octave)].size());
+  }
+  /// Level in [0, level_count) of an octave.
   [[nodiscard]] const ScaleLevel& level(int octave, int level) const {
     return octaves_[static_cast<std::size_t>(octave)][static_cast<std::size_t>(level)];
   }
@@ -48,6 +55,24 @@ class ScaleSpace {
   std::vector<std::vector<float>> blurs_;  ///< weights that make level i + 1 of level i
   std::vector<Octave> octaves_;
   AlignedFloats memory_;
+};
+
+/// Some rows of all `layers` + 3 levels of an octave. The scale space must outlive it.
+class OctaveRows {
+ public:
+  /// Rows [begin, end) of those that the octave has.
+  OctaveRows(const ScaleSpace& space, int octave, int begin, int end);
+  [[nodiscard]] const float* row(int level, int y) const {
+    const ScaleLevel& rows = levels_[static_cast<std::size_t>(level)];
+    return rows.row(y - begin_);
+  }
+  [[nodiscard]] int begin() const { return begin_; }
+  [[nodiscard]] int end() const { return end_; }
+
+ private:
+  int begin_, end_;
+  AlignedFloats made_;
+  std::vector<ScaleLevel> levels_;  ///< from row `begin` on
 };
 
 }  // namespace cairn

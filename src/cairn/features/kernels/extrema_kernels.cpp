@@ -39,6 +39,11 @@ unsigned extrema_at(const GaussianRows& gaussians, int x, Lanes threshold) {
   constexpr int kOrder[] = {1, 0, 2};
   const Lanes centre = DifferenceRow{gaussians.rows[1][1], gaussians.rows[2][1]}.at(x);
   unsigned maxima = at_least(centre, threshold), minima = at_least(spread(0.0F) - threshold, centre);
+  if ((maxima | minima) == 0) return 0;
+  const Lanes finer = DifferenceRow{gaussians.rows[0][1], gaussians.rows[1][1]}.at(x);
+  const Lanes coarser = DifferenceRow{gaussians.rows[2][1], gaussians.rows[3][1]}.at(x);
+  maxima &= at_least(centre, larger(finer, coarser));
+  minima &= at_least(smaller(finer, coarser), centre);
   for (const int level : kOrder) {
     if ((maxima | minima) == 0) return 0;
     const Range range = range_around(gaussians, level, x, centre);
@@ -51,10 +56,10 @@ unsigned extrema_at(const GaussianRows& gaussians, int x, Lanes threshold) {
 int find(const GaussianRows& gaussians, int begin, int end, float threshold, int* found) {
   const Lanes thresholds = spread(threshold);
   int count = 0;
-  for (int x = begin; x < end; x += kLanes) {
+  for (int x = begin / kLanes * kLanes; x < end; x += kLanes) {  // rows begin at cache lines
     for (unsigned bits = extrema_at(gaussians, x, thresholds); bits != 0; bits &= bits - 1) {
       const int column = x + __builtin_ctz(bits);
-      if (column < end) found[count++] = column;
+      if (column >= begin && column < end) found[count++] = column;
     }
   }
   return count;
