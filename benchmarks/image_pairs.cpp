@@ -65,7 +65,7 @@ double block_disparity(const GrayImage& left, const GrayImage& right, const Pixe
   return static_cast<double>(d) + (curvature > 0 ? (before - after) / (2 * curvature) : 0);
 }
 
-std::function<std::optional<Pixel>(const Pixel&)> place_by(const Camera& camera, DepthAt depth,
+std::function<std::optional<Pixel>(const Pixel&)> place_by(const Camera& camera, const DepthAt& depth,
                                                            const Rigid3& second_from_first) {
   return [=](const Pixel& pixel) -> std::optional<Pixel> {
     const double metres = depth(pixel);
@@ -111,7 +111,7 @@ DepthAt stereo_depth(const Sequence& sequence, const Frame& frame) {
 }
 
 ImagePair pair_of(const Sequence& sequence, std::int64_t first, std::int64_t second,
-                  const std::string& name) {
+                  const std::string& group) {
   const FrameLoader loader(sequence);
   const Frame a = loader.load(FrameId{static_cast<std::int32_t>(first)});
   const Frame b = loader.load(FrameId{static_cast<std::int32_t>(second)});
@@ -119,11 +119,11 @@ ImagePair pair_of(const Sequence& sequence, std::int64_t first, std::int64_t sec
   if (sequence.calibration.baseline) {
     const auto poses = poses_of_frames(sequence, {});
     const auto pose = [&](std::int64_t i) { return poses.at(static_cast<std::size_t>(i)).value(); };
-    return {name, a.gray, b.gray,
+    return {group, a.gray, b.gray,
             place_by(camera, stereo_depth(sequence, a), pose(second).inverse() * pose(first))};
   }
   const DepthAt depth = [image = a.depth](const Pixel& pixel) { return depth_at(image, pixel); };
-  return {name, a.gray, b.gray, place_by(camera, depth, pose_by_peer(camera, a.gray, b.gray, depth))};
+  return {group, a.gray, b.gray, place_by(camera, depth, pose_by_peer(camera, a.gray, b.gray, depth))};
 }
 
 /// The camera of course/two_view; its images come without poses.
@@ -147,10 +147,11 @@ void add_sequence_pairs(std::vector<ImagePair>& pairs, const std::filesystem::pa
                         const std::vector<std::int64_t>& starts, const std::vector<std::int64_t>& steps) {
   if (!std::filesystem::exists(folder)) return;
   const Sequence sequence = open_sequence(folder);
-  for (const std::int64_t start : starts)
-    for (const std::int64_t step : steps)
-      pairs.push_back(pair_of(sequence, start, start + step,
-                              fmt::format("{} {} and {}", folder.filename().string(), start, start + step)));
+  for (const std::int64_t step : steps)
+    for (const std::int64_t start : starts)
+      if (start + step < static_cast<std::int64_t>(sequence.frames.size()))
+        pairs.push_back(pair_of(sequence, start, start + step,
+                                fmt::format("{}, {} apart", folder.filename().string(), step)));
 }
 
 GrayImage gray_of(const RgbImage& color) {
@@ -169,7 +170,7 @@ ImagePair simulated_pair() {
   const SimulatedRgbdFrame first = room.render(0), second = room.render(kSecond);
   DepthAt depth = [image = first.depth_true](const Pixel& pixel) { return depth_at(image, pixel); };
   return {
-      "simulated room 0 and 10", gray_of(first.color), gray_of(second.color),
+      "simulated room, 10 apart", gray_of(first.color), gray_of(second.color),
       place_by(room.camera(), depth, room.world_from_camera(kSecond).inverse() * room.world_from_camera(0))};
 }
 
@@ -178,8 +179,8 @@ ImagePair simulated_pair() {
 std::vector<ImagePair> load_image_pairs(const std::filesystem::path& data) {
   std::vector<ImagePair> pairs{simulated_pair()};
   if (std::filesystem::exists(data / "course/two_view")) pairs.push_back(two_view(data / "course/two_view"));
-  add_sequence_pairs(pairs, data / "rgbd/redkitchen", {100, 400}, {10, 30});
-  add_sequence_pairs(pairs, data / "stereo/kitti_0039", {0, 100}, {1});
+  add_sequence_pairs(pairs, data / "rgbd/redkitchen", {50, 150, 250, 350, 450, 550}, {10, 30});
+  add_sequence_pairs(pairs, data / "stereo/kitti_0039", {0, 40, 80, 120, 160}, {1});
   return pairs;
 }
 

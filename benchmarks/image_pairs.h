@@ -14,7 +14,7 @@ namespace cairn::bench {
 
 /// Two images of one static scene, and where a pixel of the first lies in the second, from depth and pose.
 struct ImagePair {
-  std::string name;
+  std::string group;  ///< recording and distance, "redkitchen, 10 apart"; figures are summed over a group
   GrayImage first, second;
   /// Nothing where the first image has no depth at that pixel, or the point is not in the second's view.
   std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)> place_in_second;

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
     const cairn::bench::Inputs inputs = cairn::bench::load_inputs(CAIRN_DATA_DIR);
     cairn::bench::Comparisons comparisons;
     cairn::bench::add_orb(comparisons, inputs);
+    cairn::bench::add_matching(comparisons, inputs);
     cairn::bench::add_sift(comparisons, inputs);
     return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
   } catch (const std::exception& error) {

@@ -21,4 +21,16 @@ Correctness count_correct(const Extractor& extractor, const ImagePair& pair) {
   return counted;
 }
 
+void add_correct_matches(Comparisons& comparisons, const std::string& work, const Extractor& ours,
+                         const Extractor& peers, const std::vector<ImagePair>& pairs, double at_least_share) {
+  std::vector<QualityComparison> rows;
+  for (const ImagePair& pair : pairs) {
+    const std::string name = work + ", correct matches, " + pair.group;
+    if (rows.empty() || rows.back().work != name) rows.push_back({name, 0, 0, at_least_share, {}});
+    rows.back().ours += count_correct(ours, pair).correct;
+    rows.back().peers += count_correct(peers, pair).correct;
+  }
+  comparisons.quality.insert(comparisons.quality.end(), rows.begin(), rows.end());
+}
+
 }  // namespace cairn::bench

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cairn/features/extractor.h"
+#include "comparison.h"
 #include "image_pairs.h"
 
 namespace cairn::bench {
@@ -14,5 +15,9 @@ struct Correctness {
 
 /// Extracts both images, matches mutual nearest neighbours with cairn's matcher, and compares with the truth.
 [[nodiscard]] Correctness count_correct(const Extractor& extractor, const ImagePair& pair);
+
+/// Adds a row for each group of pairs: correct matches of ours and of the peer's extractor.
+void add_correct_matches(Comparisons& comparisons, const std::string& work, const Extractor& ours,
+                         const Extractor& peers, const std::vector<ImagePair>& pairs, double at_least_share);
 
 }  // namespace cairn::bench

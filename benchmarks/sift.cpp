@@ -25,9 +25,9 @@ void add_timed(Comparisons& comparisons, const std::string& size, const GrayImag
                                threads,
                                [=, &image] { (void)ours->extract(image, *executor); },
                                [=, &image] {
-                                 cv::setNumThreads(threads);
+                                 cv::setNumThreads(threads > 1 ? threads : 0);
                                  (void)peers->extract(image);
-                                 cv::setNumThreads(0);  // as the other benchmarks expect it
+                                 cv::setNumThreads(0);
                                },
                                1.0 / 4,
                                {}});
@@ -40,15 +40,8 @@ void add_sift(Comparisons& comparisons, const Inputs& inputs) {
     add_timed(comparisons, "640x480", inputs.vga, threads);
     add_timed(comparisons, "1242x375", inputs.wide, threads);
   }
-  const auto ours = extractor("SIFT");
-  const auto peers = extractor("OPENCV_SIFT");
-  for (const ImagePair& pair : inputs.pairs) {
-    comparisons.quality.push_back({fmt::format("SIFT {}, correct matches, {}", kCount, pair.name),
-                                   static_cast<double>(count_correct(*ours, pair).correct),
-                                   static_cast<double>(count_correct(*peers, pair).correct),
-                                   0.95,
-                                   {}});
-  }
+  add_correct_matches(comparisons, fmt::format("SIFT {}", kCount), *extractor("SIFT"),
+                      *extractor("OPENCV_SIFT"), inputs.pairs, 0.95);
 }
 
 }  // namespace cairn::bench

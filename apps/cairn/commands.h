@@ -11,6 +11,9 @@ int run_slam(int argc, char** argv);
 int run_cloud(int argc, char** argv);
 int run_octree(int argc, char** argv);
 int run_graph(int argc, char** argv);
+int run_features(int argc, char** argv);
+int run_match(int argc, char** argv);
 int run_evaluate(int argc, char** argv);
+int run_align(int argc, char** argv);
 
 }  // namespace cairn::app

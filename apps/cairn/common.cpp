@@ -147,6 +147,16 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& error, int arg
 
 }  // namespace
 
+CLI::Validator number_in(double low, double high) {
+  const auto complaint = [low, high](const std::string& text) -> std::string {
+    double value = 0;
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    if (is_number && value >= low && value <= high) return "";
+    return fmt::format("'{}' is no number from {:g} to {:g}", text, low, high);
+  };
+  return CLI::Validator(complaint, "");
+}
+
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

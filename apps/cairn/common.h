@@ -38,6 +38,9 @@ struct SequenceArguments {
 };
 void add_sequence_options(CLI::App& app, SequenceArguments& arguments);
 
+/// Accepts numbers from `low` to `high`, and not NaN, which CLI::Range lets through.
+[[nodiscard]] CLI::Validator number_in(double low, double high);
+
 /// Parses; an exit code when the program is to end here (0 after --help, 2 after wrong usage).
 [[nodiscard]] std::optional<int> parse(CLI::App& app, int argc, char** argv);
 

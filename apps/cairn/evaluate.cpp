@@ -1,103 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "commands.h"
 #include "evaluate_output.h"
+#include "trajectory_inputs.h"
 
 namespace cairn::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 const std::map<std::string, AlignmentMode> kAlignments = {
     {"se3", AlignmentMode::se3}, {"sim3", AlignmentMode::sim3}, {"none", AlignmentMode::none}};
-const std::map<std::string, RpeUnit> kUnits = {
-    {"frames", RpeUnit::frames}, {"metres", RpeUnit::metres}, {"seconds", RpeUnit::seconds}};
+constexpr RpeUnit kUnits[] = {RpeUnit::frames, RpeUnit::metres, RpeUnit::seconds};
+
+/// CLI11 gives all names to a first positional of any number, so that REF is split off here.
+class UsageOfTrajectories : public CLI::Formatter {
+  std::string make_option_usage(const CLI::Option*) const override { return "EST... REF"; }
+};
+
+void declare_trajectories(CLI::App& app, EvaluateArguments& arguments) {
+  app.add_option(
+         "EST", arguments.estimates,
+         "EST: trajectory files (TUM format), or folders of runs; REF, the last: the truth, a trajectory "
+         "file, or a sequence's folder that carries it")
+      ->required()
+      ->option_text("... REF");
+  app.formatter(std::make_shared<UsageOfTrajectories>());
+  app.callback([&arguments] {
+    if (arguments.estimates.size() < 2) throw CLI::RequiredError("REF");
+    arguments.reference = arguments.estimates.back();
+    arguments.estimates.pop_back();
+  });
+}
+
+void declare_rpe(CLI::App& app, EvaluateArguments& arguments) {
+  app.add_option("--rpe-delta", arguments.rpe_deltas,
+                 "lengths of the RPE's intervals in --rpe-unit; in the other units they stay at 1")
+      ->check(number_in(1e-6, 1e6))
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("N[,N...]")
+      ->capture_default_str();
+  app.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta: frames, metres (of path), seconds")
+      ->check(CLI::IsMember({"frames", "metres", "seconds"}))
+      ->capture_default_str();
+  app.add_flag("--rpe-all-pairs", arguments.rpe_all_pairs,
+               "an interval from each pose, not from where the last one ended");
+}
 
 void declare(CLI::App& app, EvaluateArguments& arguments) {
-  app.add_option("EST", arguments.estimate, "trajectory file (TUM format), or a run's folder")->required();
-  app.add_option("REF", arguments.reference,
-                 "the truth: trajectory file, or a sequence's folder that carries it")
-      ->required();
+  declare_trajectories(app, arguments);
   app.add_option("--align", arguments.align,
                  "how EST is moved onto REF: se3 turns and moves, sim3 scales as well, none")
       ->check(CLI::IsMember({"se3", "sim3", "none"}))
       ->capture_default_str();
   app.add_option("--max-gap", arguments.options.max_gap_s, "between the stamps of a pair, seconds")
-      ->check(CLI::Range(0.0, 10.0))
+      ->check(number_in(0, 10))
       ->type_name("S")
       ->capture_default_str();
-  app.add_option("--rpe-delta", arguments.options.rpe.delta, "length of the intervals of the RPE")
-      ->check(CLI::Range(1e-6, 1e6))
-      ->type_name("N")
-      ->capture_default_str();
-  app.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta: frames, metres (of path), seconds")
-      ->check(CLI::IsMember({"frames", "metres", "seconds"}))
-      ->capture_default_str();
-  app.add_flag("--rpe-all-pairs", arguments.options.rpe.all_pairs,
-               "an interval from each pose, not from where the last one ended");
+  declare_rpe(app, arguments);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
       ->type_name("FILE|NAME");
-  app.add_option("--plot", arguments.plot, "picture of both trajectories from above")->type_name("OUT.svg");
+  app.add_option("--plot", arguments.plot,
+                 "picture of the trajectories from three sides and of errors over time")
+      ->type_name("OUT.svg");
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(
-      "Example: cairn evaluate run/ recording/ --plot trajectory.svg\n"
-      "ATE and RPE are those of evo and the TUM tools. Exit code 1: nothing to compare.");
+      "Examples: cairn evaluate run/ recording/ --plot trajectory.svg\n"
+      "          cairn evaluate run1/ run2/ other.txt recording/     a row for each\n"
+      "ATE and RPE are those of evo and the TUM tools, drift is KITTI's. The ATE is given by se3 and sim3, "
+      "all else\n"
+      "by --align. Exit code 1: nothing to compare for an EST.");
+}
+
+/// Each unit with a delta of 1, that of --rpe-unit with those of --rpe-delta.
+std::vector<RpeOptions> rpe_options(const EvaluateArguments& arguments) {
+  std::vector<RpeOptions> options;
+  for (const RpeUnit unit : kUnits) {
+    const bool chosen = name_of(unit) == arguments.rpe_unit;
+    for (const double delta : chosen ? arguments.rpe_deltas : std::vector<double>{1})
+      options.push_back({delta, unit, arguments.rpe_all_pairs});
+  }
+  return options;
 }
 
 void check(EvaluateArguments& arguments) {
-  arguments.options.alignment = kAlignments.at(arguments.align);
-  RpeOptions& rpe = arguments.options.rpe;
-  rpe.unit = kUnits.at(arguments.rpe_unit);
-  if (rpe.unit == RpeUnit::frames && (rpe.delta < 1 || rpe.delta != std::floor(rpe.delta))) {
-    throw InputError({"--rpe-delta", 0, "a whole number of frames", fmt::format("{}", rpe.delta),
+  for (const double delta : arguments.rpe_deltas) {
+    if (arguments.rpe_unit != "frames" || (delta >= 1 && delta == std::floor(delta))) continue;
+    throw InputError({"--rpe-delta", 0, "a whole number of frames", fmt::format("{}", delta),
                       "For other units add --rpe-unit metres or --rpe-unit seconds."});
   }
+  arguments.options.alignment = kAlignments.at(arguments.align);
+  arguments.options.rpe = rpe_options(arguments);
 }
 
-/// A trajectory file, or the one of a run.
-Trajectory read_estimate(const fs::path& path) {
-  if (!fs::is_directory(path)) return read_tum_trajectory(path);
-  const fs::path inside = path / "trajectory.txt";
-  if (fs::exists(inside)) return read_tum_trajectory(inside);
-  throw InputError({path.string(), 0, "a trajectory file, or a run's folder with trajectory.txt",
-                    "a folder without one", "Name the file that holds the trajectory."});
-}
-
-/// A trajectory file, the one of a run, or a sequence's truth.
-Trajectory read_reference(const EvaluateArguments& arguments) {
-  const fs::path path = arguments.reference;
-  if (!fs::is_directory(path) || fs::exists(path / "run.json")) return read_estimate(path);
-  SequenceOptions options;
-  options.camera = arguments.camera;
-  const Sequence sequence = open_sequence(path, options);
-  if (sequence.truth && !sequence.truth->empty()) return *sequence.truth;
-  throw InputError({path.string(), 0, "a sequence with true poses", fmt::format("none ({})", sequence.format),
-                    "Name a trajectory file as REF."});
+Evaluations evaluate(const EvaluateArguments& arguments, const Trajectory& reference) {
+  Evaluations evaluations{arguments, reference, {}};
+  for (const auto& path : arguments.estimates)
+    evaluations.estimates.push_back({path, read_estimate(path), {}});
+  for (auto& [path, estimate, result] : evaluations.estimates)
+    result = evaluate_trajectory(estimate, reference, arguments.options);
+  return evaluations;
 }
 
 }  // namespace
 
 int run_evaluate(int argc, char** argv) {
   EvaluateArguments arguments;
-  CLI::App app("How far a trajectory is from the truth: ATE and RPE.", "evaluate");
+  CLI::App app("How far trajectories are from the truth: ATE, RPE and drift.", "evaluate");
   declare(app, arguments);
   if (const auto code = parse(app, argc, argv)) return *code;
   check(arguments);
-  const Trajectory estimate = read_estimate(arguments.estimate);
-  const Trajectory reference = read_reference(arguments);
-  const TrajectoryEvaluation result = evaluate_trajectory(estimate, reference, arguments.options);
-  const Evaluated evaluated{arguments, estimate, reference, result};
-  if (result.status != EvaluationStatus::ok) return print_failure(evaluated);
-  if (!arguments.plot.empty()) write_file(arguments.plot, draw_evaluation(evaluated));
-  arguments.common.json ? print_evaluation_json(evaluated) : print_evaluation(evaluated);
-  return 0;
+  const Trajectory reference = read_reference(arguments.reference, arguments.camera);
+  const Evaluations evaluations = evaluate(arguments, reference);
+  for (const auto& evaluated : evaluations.estimates) print_doubts(evaluations, evaluated);
+  const auto failed = std::count_if(evaluations.estimates.begin(), evaluations.estimates.end(),
+                                    [](const auto& e) { return e.result.status != EvaluationStatus::ok; });
+  if (failed == std::ssize(evaluations.estimates)) return 1;
+  if (!arguments.plot.empty()) write_file(arguments.plot, draw_evaluations(evaluations));
+  arguments.common.json ? print_evaluations_json(evaluations) : print_evaluations(evaluations);
+  return failed == 0 ? 0 : 1;
 }
 
 }  // namespace cairn::app

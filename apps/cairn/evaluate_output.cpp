@@ -5,62 +5,31 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cairn/core/text.h"
-#include "cairn/report/trajectory_plot.h"
+#include "trajectory_inputs.h"
 
 namespace cairn::app {
 namespace {
-
-std::string time_range(const Trajectory& trajectory) {
-  return fmt::format("{} to {} s, {} poses", format_stamp(trajectory.front().stamp_ns),
-                     format_stamp(trajectory.back().stamp_ns), trajectory.size());
-}
-
-std::string_view reason(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::too_few_points:
-      return "fewer than 3 pairs of poses do not determine it";
-    case AlignmentStatus::one_place:
-      return "all poses of one trajectory are at one place";
-    case AlignmentStatus::one_line:
-      return "all poses of one trajectory lie on one line, so the turn about it is free";
-    case AlignmentStatus::ok:
-      break;
-  }
-  return "";
-}
 
 double percent(std::size_t part, std::size_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-struct ShownUnit {
-  std::string_view name;
-  double factor;  ///< in a metre, or 1 for degrees
-};
+// ---- one estimate: all statistics ----
 
-/// Centimetres, or metres where they would need more than five digits.
-ShownUnit unit_for(const ErrorStatistics& errors_m) {
-  constexpr double kFarM = 10;
-  return errors_m.max < kFarM ? ShownUnit{"cm", 100} : ShownUnit{"m", 1};
-}
-
-void print_row(std::string_view name, const ShownUnit& unit, const std::optional<ErrorStatistics>& errors) {
+void print_row(const std::string& name, const ShownUnit& unit, const std::optional<ErrorStatistics>& errors) {
   if (!errors) return;
   const auto& e = *errors;
-  const double factor = unit.factor;
-  fmt::print("{:<16} {:>4} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f}\n", name, unit.name,
-             factor * e.rmse, factor * e.mean, factor * e.median, factor * e.std, factor * e.min,
-             factor * e.max);
+  fmt::print("{:<16} {:>4} {:>7}", name, unit.name, e.count);
+  for (const double value : {e.rmse, e.mean, e.median, e.std, e.min, e.max})
+    fmt::print(" {:>9.3f}", unit.factor * value);
+  fmt::print("\n");
 }
 
 std::string describe_alignment(const EvaluateArguments& arguments, const TrajectoryEvaluation& result) {
   if (arguments.options.alignment == AlignmentMode::none) return "none: both in one frame";
-  const Similarity3& map = result.reference_from_estimate;
+  const Similarity3& map = result.absolute.reference_from_estimate;
   std::string text = fmt::format("{}: turned {:.2f} deg", arguments.align,
                                  180.0 / std::numbers::pi * rotation_angle(map.rotation));
   text += fmt::format(", moved {:.3f} m", map.translation.norm());
@@ -68,120 +37,170 @@ std::string describe_alignment(const EvaluateArguments& arguments, const Traject
   return text;
 }
 
-void add_statistics(nlohmann::ordered_json& json, const std::string& name, const std::string& unit,
-                    const std::optional<ErrorStatistics>& errors) {
-  const auto put = [&](const char* statistic, double ErrorStatistics::*value) {
-    const auto key = fmt::format("{}_{}_{}", name, statistic, unit);
-    json[key] = errors ? nlohmann::ordered_json((*errors).*value) : nullptr;
+void print_absolute(const EvaluateArguments& arguments, const TrajectoryEvaluation& result) {
+  const ShownUnit shown = unit_for(result.absolute.ate_m->max);
+  const bool plain = arguments.options.alignment == AlignmentMode::none;
+  if (plain) print_row("ATE none", shown, result.absolute.ate_m);
+  print_row("ATE se3", shown, result.se3.ate_m);
+  print_row("ATE sim3", shown, result.sim3.ate_m);
+  // se3 and sim3 turn alike
+  print_row("ATE rotation", {"deg", 1}, result.absolute.ate_deg);
+}
+
+void print_relative(const TrajectoryEvaluation& result) {
+  const ShownUnit shown = unit_for(result.absolute.ate_m->max);
+  for (const auto& [options, rpe_m, rpe_deg] : result.relative) {
+    print_row("RPE " + name_of(options), shown, rpe_m);
+    print_row("", {"deg", 1}, rpe_deg);
+  }
+  for (const auto& [options, rpe_m, rpe_deg] : result.relative)
+    if (!rpe_m) fmt::print("no RPE over {}: there is no such interval among the pairs\n", name_of(options));
+}
+
+void print_drift(const std::optional<Drift>& drift) {
+  if (!drift) return;
+  fmt::print("\ndrift of KITTI   segments  translation     rotation\n");
+  const auto row = [](const std::string& name, const DriftFigures& figures) {
+    fmt::print("{:<16} {:>8} {:>10.4f} % {:>12.6f} deg/m\n", name, figures.segments,
+               figures.translation_percent, figures.rotation_deg_per_m);
   };
-  put("rmse", &ErrorStatistics::rmse);
-  put("mean", &ErrorStatistics::mean);
-  put("median", &ErrorStatistics::median);
-  put("std", &ErrorStatistics::std);
-  put("min", &ErrorStatistics::min);
-  put("max", &ErrorStatistics::max);
+  for (const auto& figures : drift->by_length) row(fmt::format("{} m", figures.length_m), figures);
+  row("all", drift->all);
 }
 
-/// A longer step than this many medians means that poses are missing.
-std::int64_t longest_step_ns(const std::vector<PosePair>& pairs) {
-  constexpr std::int64_t kMedians = 5;
-  std::vector<std::int64_t> steps;
-  for (std::size_t i = 1; i < pairs.size(); ++i) steps.push_back(pairs[i].stamp_ns - pairs[i - 1].stamp_ns);
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return kMedians * *middle;
+void print_one(const Evaluations& evaluations) {
+  const auto& [path, estimate, result] = evaluations.estimates.front();
+  const EvaluateArguments& arguments = evaluations.arguments;
+  const std::size_t pairs = result.pairs.size();
+  fmt::print("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), stamps within {} s\n", pairs,
+             percent(pairs, estimate.size()), percent(pairs, evaluations.reference.size()),
+             arguments.options.max_gap_s);
+  fmt::print("alignment  {}\n", describe_alignment(arguments, result));
+  if (result.sim3.ate_m) fmt::print("scale      {:.6f} by sim3\n", result.sim3.reference_from_estimate.scale);
+  fmt::print("\n{:<16} {:>4} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "", "number", "rmse", "mean",
+             "median", "std", "min", "max");
+  print_absolute(arguments, result);
+  print_relative(result);
+  print_drift(result.drift);
 }
 
-/// The last two parts of a path: "run/trajectory.txt".
-std::string short_name(const std::string& path) {
-  const std::filesystem::path whole = std::filesystem::path(path).lexically_normal();
-  const auto named = whole.has_filename() ? whole : whole.parent_path();
-  return (named.parent_path().filename() / named.filename()).string();
+// ---- several estimates: a row each ----
+
+using Row = std::vector<std::string>;
+
+/// The first column to the left, the others to the right.
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  for (const auto& row : rows) {
+    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t k = 1; k < row.size(); ++k) line += fmt::format("  {:>{}}", row[k], widths[k]);
+    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+}
+
+std::string rmse(const std::optional<ErrorStatistics>& errors, const ShownUnit& unit) {
+  return errors ? fmt::format("{:.3f}", unit.factor * errors->rmse) : "-";
+}
+
+/// Names and, below them, units.
+std::pair<Row, Row> head(const EvaluateArguments& arguments, const ShownUnit& unit) {
+  const std::string length(unit.name);
+  Row names{"", "pairs"}, units{"rmse", ""};
+  const auto add = [&](const std::string& name, const std::string& of) {
+    names.push_back(name);
+    units.push_back(of);
+  };
+  if (arguments.options.alignment == AlignmentMode::none) add("ATE none", length);
+  add("ATE se3", length);
+  add("ATE sim3", length);
+  add("scale", "");
+  add("ATE rot.", "deg");
+  for (const auto& rpe : arguments.options.rpe) {
+    add("RPE " + name_of(rpe), length);
+    add("", "deg");
+  }
+  add("drift", "%");
+  add("", "deg/m");
+  return {names, units};
+}
+
+Row row_of(const EvaluateArguments& arguments, const Evaluated& evaluated, const ShownUnit& unit) {
+  const auto& [path, estimate, result] = evaluated;
+  Row row{short_name(path), fmt::format("{}", result.pairs.size())};
+  const ShownUnit degrees{"deg", 1};
+  if (arguments.options.alignment == AlignmentMode::none) row.push_back(rmse(result.absolute.ate_m, unit));
+  row.push_back(rmse(result.se3.ate_m, unit));
+  row.push_back(rmse(result.sim3.ate_m, unit));
+  row.push_back(result.sim3.ate_m ? fmt::format("{:.4f}", result.sim3.reference_from_estimate.scale) : "-");
+  row.push_back(rmse(result.absolute.ate_deg, degrees));
+  for (std::size_t k = 0; k < arguments.options.rpe.size(); ++k) {
+    const bool known = k < result.relative.size();
+    row.push_back(known ? rmse(result.relative[k].rpe_m, unit) : "-");
+    row.push_back(known ? rmse(result.relative[k].rpe_deg, degrees) : "-");
+  }
+  row.push_back(result.drift ? fmt::format("{:.4f}", result.drift->all.translation_percent) : "-");
+  row.push_back(result.drift ? fmt::format("{:.6f}", result.drift->all.rotation_deg_per_m) : "-");
+  return row;
+}
+
+void print_several(const Evaluations& evaluations) {
+  const EvaluateArguments& arguments = evaluations.arguments;
+  double largest_m = 0;
+  for (const auto& evaluated : evaluations.estimates)
+    if (const auto& ate_m = evaluated.result.absolute.ate_m) largest_m = std::max(largest_m, ate_m->max);
+  const ShownUnit unit = unit_for(largest_m);
+  fmt::print("reference  {}, {} poses; stamps within {} s; all but ATE aligned by {}\n\n",
+             arguments.reference, evaluations.reference.size(), arguments.options.max_gap_s, arguments.align);
+  const auto [names, units] = head(arguments, unit);
+  std::vector<Row> rows{names, units};
+  for (const auto& evaluated : evaluations.estimates) rows.push_back(row_of(arguments, evaluated, unit));
+  print_table(rows);
 }
 
 }  // namespace
 
-int print_failure(const Evaluated& evaluated) {
-  const auto& [arguments, estimate, reference, result] = evaluated;
+ShownUnit unit_for(double largest_error_m) {
+  constexpr double kFarM = 10;
+  return largest_error_m < kFarM ? ShownUnit{"cm", 100} : ShownUnit{"m", 1};
+}
+
+std::string_view name_of(RpeUnit unit) {
+  switch (unit) {
+    case RpeUnit::metres:
+      return "metres";
+    case RpeUnit::seconds:
+      return "seconds";
+    case RpeUnit::frames:
+      break;
+  }
+  return "frames";
+}
+
+std::string name_of(const RpeOptions& options) {
+  if (options.unit == RpeUnit::frames)
+    return fmt::format("{} frame{}", options.delta, options.delta == 1 ? "" : "s");
+  return fmt::format("{} {}", options.delta, options.unit == RpeUnit::metres ? "m" : "s");
+}
+
+void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated) {
+  const EvaluateArguments& arguments = evaluations.arguments;
+  const auto& [path, estimate, result] = evaluated;
+  const std::string name = evaluations.estimates.size() > 1 ? short_name(path) + ": " : "";
   if (result.status == EvaluationStatus::no_pairs) {
-    fmt::print(
-        stderr,
-        "cairn: no pose of EST is within {} s of a pose of REF.\n  EST {}\n  REF {}\n"
-        "  If the times overlap, raise --max-gap; if not, the clocks differ or the files do not belong "
-        "together.\n",
-        arguments.options.max_gap_s, time_range(estimate), time_range(reference));
+    fmt::print(stderr, "cairn: {}{}\n", name,
+               explain_no_pairs(estimate, evaluations.reference, arguments.options.max_gap_s));
+  } else if (result.status == EvaluationStatus::not_alignable) {
+    fmt::print(stderr, "cairn: {}no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
+               name, arguments.align, result.pairs.size(), explain(result.absolute.status));
   } else {
-    fmt::print(stderr, "cairn: no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
-               arguments.align, result.pairs.size(), reason(result.alignment_status));
-  }
-  return 1;
-}
-
-void print_evaluation(const Evaluated& evaluated) {
-  const auto& [arguments, estimate, reference, result] = evaluated;
-  const std::size_t pairs = result.pairs.size();
-  fmt::print("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), stamps within {} s\n", pairs,
-             percent(pairs, estimate.size()), percent(pairs, reference.size()), arguments.options.max_gap_s);
-  fmt::print("alignment  {}\n\n", describe_alignment(arguments, result));
-  fmt::print("{:<16} {:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "", "rmse", "mean", "median", "std",
-             "min", "max");
-  const ShownUnit shown = unit_for(*result.ate_m);
-  print_row("ATE translation", shown, result.ate_m);
-  print_row("ATE rotation", {"deg", 1}, result.ate_deg);
-  print_row("RPE translation", shown, result.rpe_m);
-  print_row("RPE rotation", {"deg", 1}, result.rpe_deg);
-  const std::string delta = fmt::format("{} {}", arguments.options.rpe.delta, arguments.rpe_unit);
-  if (result.rpe_m) {
-    fmt::print("\nRPE over {} intervals of {}\n", result.rpe_m->count, delta);
-  } else {
-    fmt::print("\nno RPE: no interval of {} among the pairs\n", delta);
+    warn_of_free_turn(short_name(path), result.absolute.turn_uncertainty);
   }
 }
 
-void print_evaluation_json(const Evaluated& evaluated) {
-  const auto& [arguments, estimate, reference, result] = evaluated;
-  const Similarity3& map = result.reference_from_estimate;
-  nlohmann::ordered_json json;
-  json["pairs"] = result.pairs.size();
-  json["estimate_poses"] = estimate.size();
-  json["reference_poses"] = reference.size();
-  json["max_gap_s"] = arguments.options.max_gap_s;
-  json["alignment"] = arguments.align;
-  json["scale"] = map.scale;
-  json["rotation_xyzw"] = {map.rotation.x(), map.rotation.y(), map.rotation.z(), map.rotation.w()};
-  json["translation_m"] = {map.translation.x(), map.translation.y(), map.translation.z()};
-  add_statistics(json, "ate", "m", result.ate_m);
-  add_statistics(json, "ate", "deg", result.ate_deg);
-  json["rpe_delta"] = arguments.options.rpe.delta;
-  json["rpe_unit"] = arguments.rpe_unit;
-  json["rpe_all_pairs"] = arguments.options.rpe.all_pairs;
-  json["rpe_intervals"] = result.rpe_m ? result.rpe_m->count : 0;
-  add_statistics(json, "rpe", "m", result.rpe_m);
-  add_statistics(json, "rpe", "deg", result.rpe_deg);
-  fmt::print("{}\n", json.dump(2));
-}
-
-std::string draw_evaluation(const Evaluated& evaluated) {
-  const auto& [arguments, estimate, reference, result] = evaluated;
-  TrajectoryPlot plot;
-  const ShownUnit shown = unit_for(*result.ate_m);
-  plot.title = fmt::format("ATE {:.2f} {} rmse, {} poses", shown.factor * result.ate_m->rmse, shown.name,
-                           result.pairs.size());
-  plot.subtitle = fmt::format("{} against {}, aligned by {}", short_name(arguments.estimate),
-                              short_name(arguments.reference), arguments.align);
-  const std::int64_t first = result.pairs.front().stamp_ns, last = result.pairs.back().stamp_ns;
-  for (const auto& pose : reference) {
-    const bool during = pose.stamp_ns >= first - 1'000'000'000 && pose.stamp_ns <= last + 1'000'000'000;
-    if (during) plot.reference.push_back(pose.world_from_camera.translation);
-  }
-  const std::int64_t longest = longest_step_ns(result.pairs);
-  for (std::size_t i = 0; i < result.pairs.size(); ++i) {
-    const bool connected = i > 0 && result.pairs[i].stamp_ns - result.pairs[i - 1].stamp_ns <= longest;
-    plot.estimate.push_back(
-        {result.pairs[i].estimate.translation, result.absolute.translation_m[i], connected});
-  }
-  return draw_trajectory_plot(plot);
+void print_evaluations(const Evaluations& evaluations) {
+  evaluations.estimates.size() == 1 ? print_one(evaluations) : print_several(evaluations);
 }
 
 }  // namespace cairn::app

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cairn/evaluate/evaluation.h"
 #include "common.h"
@@ -10,25 +11,44 @@ namespace cairn::app {
 
 struct EvaluateArguments {
   CommonOptions common;
-  std::string estimate, reference, camera, align = "se3", rpe_unit = "frames", plot;
+  std::vector<std::string> estimates;
+  std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
+  std::vector<double> rpe_deltas = {1};  ///< in rpe_unit
+  bool rpe_all_pairs = false;
   EvaluationOptions options;
 };
 
 /// An evaluation with what it is of.
 struct Evaluated {
-  const EvaluateArguments& arguments;
-  const Trajectory& estimate;
-  const Trajectory& reference;
-  const TrajectoryEvaluation& result;
+  std::string path;  ///< as it was given
+  Trajectory estimate;
+  TrajectoryEvaluation result;
 };
 
-/// The table on stdout.
-void print_evaluation(const Evaluated& evaluated);
+struct Evaluations {
+  const EvaluateArguments& arguments;
+  const Trajectory& reference;
+  std::vector<Evaluated> estimates;  ///< in the order of the command line
+};
+
+/// On stdout: all figures of one estimate, or a row for each of several.
+void print_evaluations(const Evaluations& evaluations);
 /// One object on stdout, all figures in full.
-void print_evaluation_json(const Evaluated& evaluated);
-/// On stderr: why there is nothing to compare and what to do. Returns the exit code, 1.
-int print_failure(const Evaluated& evaluated);
-/// The picture of --plot, an SVG file.
-[[nodiscard]] std::string draw_evaluation(const Evaluated& evaluated);
+void print_evaluations_json(const Evaluations& evaluations);
+/// On stderr: why there is nothing to compare and what to do, where that is so; what to beware of elsewhere.
+void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated);
+/// The picture of --plot, an SVG file, of those that could be evaluated.
+[[nodiscard]] std::string draw_evaluations(const Evaluations& evaluations);
+
+/// "1 frame", "10 m", "0.5 s".
+[[nodiscard]] std::string name_of(const RpeOptions& options);
+[[nodiscard]] std::string_view name_of(RpeUnit unit);
+
+struct ShownUnit {
+  std::string_view name;
+  double factor;  ///< in a metre, or 1 for degrees
+};
+/// Centimetres, or metres where an error would need more than five digits.
+[[nodiscard]] ShownUnit unit_for(double largest_error_m);
 
 }  // namespace cairn::app

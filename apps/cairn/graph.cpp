@@ -46,7 +46,7 @@ void declare(CLI::App& app, GraphArguments& arguments) {
       ->capture_default_str();
   app.add_option("--robust-scale", arguments.options.robust_scale,
                  "standard deviations of an edge at which --robust sets in")
-      ->check(CLI::PositiveNumber)
+      ->check(number_in(1e-9, 1e9))
       ->type_name("S")
       ->capture_default_str();
   app.add_option("--start", arguments.start,

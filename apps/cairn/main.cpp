@@ -29,7 +29,10 @@ constexpr Command kCommands[] = {
     {"octree", "occupancy octree (.bt, .ot) from a cloud, or from a sequence and its poses",
      cairn::app::run_octree},
     {"graph", "optimise a pose graph (.g2o)", cairn::app::run_graph},
-    {"evaluate", "compare a trajectory with its truth: ATE, RPE", cairn::app::run_evaluate},
+    {"features", "find and describe features of images: counts, times, pictures", cairn::app::run_features},
+    {"match", "find the features of one image in another", cairn::app::run_match},
+    {"evaluate", "compare trajectories with their truth: ATE, RPE, drift", cairn::app::run_evaluate},
+    {"align", "the transform that moves a trajectory onto another", cairn::app::run_align},
 };
 
 void print_usage(std::FILE* stream) {

@@ -35,7 +35,7 @@ void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--scale", arguments.scale, "image width and height over the default's")
-      ->check(CLI::Range(0.05, 4.0).description(""))
+      ->check(number_in(0.05, 4))
       ->capture_default_str()
       ->type_name("X");
   add_common_options(app, arguments.common, {.threads = true, .seed = true});

@@ -135,8 +135,8 @@ void write_dense_files(const std::filesystem::path& folder, const Sequence& sequ
 void add_accuracy(const Sequence& sequence, const RgbdSlamResult& result, SlamSummary& summary) {
   if (!sequence.truth) return;
   const TrajectoryEvaluation evaluation = evaluate_trajectory(result.trajectory(), *sequence.truth);
-  if (evaluation.status != EvaluationStatus::ok || !evaluation.ate_m) return;
-  summary.ate_m = evaluation.ate_m->rmse;
+  if (evaluation.status != EvaluationStatus::ok) return;
+  summary.ate_m = evaluation.absolute.ate_m->rmse;
   summary.ate_pairs = static_cast<std::int64_t>(evaluation.pairs.size());
 }
 

@@ -96,7 +96,8 @@ CASES = [
          (SEQ, file("p.yaml", "features: 100\nkeyframe_treshold: 1\n"))),
     Case("slam parameter out of range", "slam seq -o run --set features=-5", ("features", "-5"), (SEQ,)),
     Case("slam parameter of the wrong type", "slam seq -o run --set features=many", ("features", "'many'"), (SEQ,)),
-    Case("slam without anything to see", "slam seq -o run --quiet", ("no frame could be tracked",), (SEQ,), code=1),
+    Case("slam with too few features", "slam seq -o run --quiet", ("no motion was found",), (SEQ,), code=1, leaves=("run",)),
+    Case("slam without depth", "slam seq -o run --quiet --set depth.max=0.5", ("no frame could be tracked",), (SEQ,), code=1),
 ]
 
 if __name__ == "__main__":

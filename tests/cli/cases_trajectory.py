@@ -1,52 +1,104 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Bad trajectories and pose graphs."""
+"""Bad trajectories, and such as do not determine what is asked, for evaluate and align."""
 
 from harness import Case, main
 from inputs import file, folder, trajectory
 
-GRAPH = """\
-VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1
-VERTEX_SE3:QUAT 1 1 0 0 0 0 0 1
-EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1
-"""
-
-
-def graph(old="", new=""):
-    assert old in GRAPH
-    return file("in.g2o", GRAPH.replace(old, new, 1))
-
-
 POSES = (trajectory("a.txt"), trajectory("b.txt"))
 
+
+def places(name, rows, begin=1.0):
+    """A trajectory through these places, turned nowhere, a tenth of a second apart."""
+    return file(name, "".join(f"{begin + 0.1 * i:.6f} {x} {y} {z} 0 0 0 1\n" for i, (x, y, z) in enumerate(rows)))
+
+
+def pairs(name, rows, map_of=lambda place: place):
+    """A file of pairs: each place, and where map_of takes it."""
+    def pose(i, place):
+        return f"{1 + 0.1 * i:.6f} " + " ".join(str(value) for value in place) + " 0 0 0 1"
+    return file(name, "".join(f"{pose(i, place)} {pose(i, map_of(place))}\n" for i, place in enumerate(rows)))
+
+
+BEND = [(0, 0, 0), (1, 0.1, 0), (2, 0.4, 0.1), (3, 0.9, 0.3)]
+LINE = [(i, 2 * i, -i) for i in range(5)]
+NEAR_LINE = [(i, 1e-3 * (i * 7 % 5), 1e-3 * (i * 3 % 4)) for i in range(20)]
+NEAR_OTHER_LINE = [(i, 1e-3 * (i * 5 % 7), 1e-3 * (i * 2 % 3)) for i in range(20)]
+AXES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+LATER = places("late.txt", BEND, begin=900)
+
 CASES = [
-    Case("evaluate", "evaluate a.txt b.txt", given=POSES, code=0, prints=("ATE",)),
+    Case("evaluate", "evaluate a.txt b.txt", given=POSES, code=0, prints=("ATE se3", "ATE sim3", "RPE 1 frame")),
+    Case("identical trajectories", "evaluate a.txt a.txt --json", given=POSES, code=0, prints=('"status": "ok"', '"drift": null')),
+    Case("several estimates", "evaluate a.txt b.txt c.txt b.txt", given=(*POSES, trajectory("c.txt", 9)), code=0,
+         prints=("reference  b.txt, 3 poses", "a.txt", "c.txt", "drift")),
+    Case("several estimates drawn", "evaluate a.txt c.txt b.txt --plot all.svg", given=(*POSES, trajectory("c.txt", 9)), code=0,
+         leaves=("all.svg",)),
+    Case("several lengths of RPE", "evaluate a.txt b.txt --rpe-unit metres --rpe-delta 0.01,0.005", given=POSES, code=0,
+         prints=("RPE 1 frame", "RPE 0.01 m", "RPE 0.005 m", "no RPE over 1 s")),
+    Case("reference is missing", "evaluate a.txt", ("REF is required",), POSES),
+    Case("half a frame", "evaluate a.txt b.txt --rpe-delta 1,2.5", ("--rpe-delta: expected a whole number of frames, found 2.5",), POSES),
+    Case("no length of RPE", "evaluate a.txt b.txt --rpe-delta 0", ("--rpe-delta",), POSES),
     Case("no such estimate", "evaluate a.txt b.txt", ("a.txt: expected a readable file",), (trajectory("b.txt"),)),
+    Case("no such estimate among several", "evaluate b.txt a.txt b.txt", ("a.txt: expected a readable file",), (trajectory("b.txt"),)),
     Case("line with 7 numbers", "evaluate a.txt b.txt", ("a.txt:2: expected 8 values (t tx ty tz qx qy qz qw), found 7",),
          (*POSES, file("a.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 1\n"))),
     Case("word among numbers", "evaluate a.txt b.txt", ("a.txt:1: expected a number for ty, found 'x'",),
          (*POSES, file("a.txt", "1 0 x 0 0 0 0 1\n"))),
     Case("not a number", "evaluate a.txt b.txt", ("a.txt:1: expected a number for tz, found 'nan'",),
          (*POSES, file("a.txt", "1 0 0 nan 0 0 0 1\n"))),
+    Case("infinite number", "evaluate a.txt b.txt", ("a.txt:1: expected a number for qz, found 'inf'",),
+         (*POSES, file("a.txt", "1 0 0 0 0 0 inf 1\n"))),
+    Case("beyond the planets", "evaluate a.txt b.txt", ("a.txt:1: expected tx of at most 1e12 metres, found 1e+200",),
+         (*POSES, file("a.txt", "1 1e200 0 0 0 0 0 1\n"))),
     Case("time goes backwards", "evaluate a.txt b.txt", ("a.txt:2: expected a time stamp after 2.000000000, found 1.000000000",),
          (*POSES, file("a.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"))),
     Case("empty trajectory", "evaluate a.txt b.txt", ("a.txt: expected poses, one a line",), (*POSES, file("a.txt", ""))),
     Case("folder that is no run", "evaluate run b.txt", ("run: expected a trajectory file, or a run's folder",),
          (*POSES, folder("run"))),
     Case("picture into a missing folder", "evaluate a.txt b.txt --plot no/a.svg", ("no/a.svg: expected to create the file",), POSES),
-    Case("nothing to compare", "evaluate a.txt b.txt", (), (*POSES, file("b.txt", "900 0 0 0 0 0 0 1\n901 0 0 0 0 0 0 1\n")), code=1),
-    # pose graphs
-    Case("graph", "graph in.g2o -o out.g2o", given=(graph(),), code=0, prints=("chi2 after",), leaves=("out.g2o",)),
-    Case("no such graph", "graph in.g2o -o out.g2o", ("in.g2o: expected a readable file",)),
-    Case("graph into a missing folder", "graph in.g2o -o no/out.g2o", ("no/out.g2o: expected to create the file",), (graph(),)),
-    Case("graph over a device", "graph in.g2o -o /dev/null", ("/dev/null: expected the name of a file to write",), (graph(),)),
-    Case("vertex with 6 numbers", "graph in.g2o -o out.g2o", ("in.g2o:2: expected", "found"), (graph("1 1 0 0 0 0 0 1", "1 1 0 0 0 0 1"),)),
-    Case("edge to nowhere", "graph in.g2o -o out.g2o", ("in.g2o:3: expected",), (graph("QUAT 0 1 1", "QUAT 0 7 1"),)),
-    Case("edge with half a matrix", "graph in.g2o -o out.g2o", ("in.g2o:3: expected",), (graph(" 1 0 1\n", "\n"),)),
-    Case("planar graph", "graph in.g2o -o out.g2o", ("in.g2o:1: expected",), (file("in.g2o", "VERTEX_SE2 0 0 0 0\n"),)),
-    Case("empty graph", "graph in.g2o -o out.g2o", ("in.g2o: expected",), (file("in.g2o", ""),)),
-    Case("unknown kernel", "graph in.g2o -o out.g2o --robust strong", ("--robust", "strong"), (graph(),)),
-    Case("full disk", "graph in.g2o -o out.g2o", ("out.g2o: expected to write the file", "File too large"), (graph(),), file_limit=64),
+    # what does not determine an answer
+    Case("nothing to compare", "evaluate late.txt b.txt", ("no pose of EST is within 0.02 s of a pose of REF", "REF 1.0", "raise --max-gap"),
+         (*POSES, LATER), code=1),
+    Case("nothing to compare for one of several", "evaluate a.txt late.txt b.txt", ("late.txt: no pose of EST is within",),
+         (*POSES, LATER), code=1, prints=("a.txt", "late.txt")),
+    Case("one pose", "evaluate a.txt b.txt", ("no alignment by se3 from 1 pairs: fewer than 3", "--align none"),
+         (trajectory("a.txt", 1), trajectory("b.txt")), code=1),
+    Case("one pose as it is", "evaluate a.txt b.txt --align none", given=(trajectory("a.txt", 1), trajectory("b.txt")), code=0,
+         prints=("ATE none",)),
+    Case("poses on a line", "evaluate a.txt b.txt", ("lie on one line, so the turn about it is free",),
+         (places("a.txt", LINE), places("b.txt", LINE)), code=1),
+    Case("camera that stands still", "evaluate a.txt b.txt", ("are at one place",),
+         (places("a.txt", [(1, 2, 3)] * 4), places("b.txt", BEND)), code=1),
+    Case("poses nearly on a line", "evaluate a.txt b.txt", ("a.txt: the poses lie nearly on one line",),
+         (places("a.txt", NEAR_LINE), places("b.txt", NEAR_OTHER_LINE)), code=0, prints=("ATE se3",)),
+    Case("gap that is no number", "evaluate a.txt b.txt --max-gap nan", ("--max-gap", "'nan'"), POSES),
+    Case("interval that is no number", "evaluate a.txt b.txt --rpe-delta nan", ("--rpe-delta", "'nan'"), POSES),
+    # align
+    Case("align", "align a.txt b.txt", given=(places("a.txt", BEND), places("b.txt", [(x + 5, y, z) for x, y, z in BEND])), code=0,
+         prints=("reference = R * estimate + t", "\nt            5.000000000   0.000000000   0.000000000  m", "5.000000000 m RMS before, 0.000000000 m after")),
+    Case("align pairs", "align p.txt", given=(pairs("p.txt", BEND, lambda p: (-p[1], p[0], p[2] - 7)),), code=0,
+         prints=("pairs      4\n", "\nR            0.000000000  -1.000000000   0.000000000\n", "angle      90.000000 deg")),
+    Case("align with scale", "align p.txt --scale", given=(pairs("p.txt", BEND, lambda p: tuple(4 * v for v in p)),), code=0,
+         prints=("reference = s * R * estimate + t", "\ns            4.000000000\n", "0.000000000 m after")),
+    Case("align as JSON", "align p.txt --json", given=(pairs("p.txt", BEND),), code=0,
+         prints=('"direction": "reference_from_estimate"', '"scale": 1.0', '"rms_after_m"')),
+    Case("align in a plane", "align p.txt", given=(pairs("p.txt", [(x, y, 0) for x, y, _ in BEND]),), code=0, prints=("after",)),
+    Case("align drawn", "align p.txt --plot a.svg", given=(pairs("p.txt", BEND),), code=0, leaves=("a.svg",)),
+    Case("align one trajectory", "align a.txt",
+         ("a.txt:1: expected 16 values (estimate, then reference, each t tx ty tz qx qy qz qw), found 8", "give two trajectories"), POSES),
+    Case("align a folder alone", "align run", ("run: expected",), (folder("run"),)),
+    Case("align nothing", "align p.txt", ("p.txt: expected pairs of poses, one pair a line",), (file("p.txt", "# none\n"),)),
+    Case("align what is not a number", "align p.txt", ("p.txt:1: expected a number for ty, found 'nan'",),
+         (file("p.txt", "1 0 0 0 0 0 0 1 1 0 nan 0 0 0 0 1\n"),)),
+    Case("align without common stamps", "align late.txt b.txt", ("no pose of EST is within",), (*POSES, LATER), code=1),
+    Case("align one pair", "align p.txt", ("no alignment from 1 pairs: fewer than 3",), (pairs("p.txt", BEND[:1]),), code=1),
+    Case("align a line", "align p.txt", ("one line",), (pairs("p.txt", LINE),), code=1),
+    Case("align one place", "align p.txt", ("one place",), (pairs("p.txt", [(1, 2, 3)] * 5),), code=1),
+    Case("align mirror images", "align p.txt", ("mirror images",), (pairs("p.txt", AXES, lambda p: (p[0], p[1], -p[2])),), code=1),
+    Case("align nearly a line", "align a.txt b.txt", ("nearly on one line",),
+         (places("a.txt", NEAR_LINE), places("b.txt", NEAR_OTHER_LINE)), code=0, prints=("transform",)),
+    Case("alignment into a missing folder", "align p.txt --plot no/a.svg", ("no/a.svg: expected to create the file",), (pairs("p.txt", BEND),)),
 ]
 
 if __name__ == "__main__":

@@ -32,6 +32,7 @@ class Case:
     prints: tuple = ()  # to stdout
     leaves: tuple = ()  # paths that must be new afterwards; anything else new or changed is an error
     messages: int = 1  # how many, where the code is 2: more only where frames are reported and skipped before
+    environment: dict = dataclasses.field(default_factory=dict)  # variables set for the program
     file_limit: int = 0  # bytes that a file can grow to, as on a full disk; 0: no limit
 
 
@@ -50,7 +51,7 @@ def limit_files(size):
 
 
 def start(program, case, folder):
-    environment = dict(os.environ, LC_ALL="C")
+    environment = dict(os.environ, LC_ALL="C", **case.environment)
     return subprocess.run([program, *case.run.split()], cwd=folder, stdin=subprocess.DEVNULL, capture_output=True,
                           text=True, timeout=TIME_LIMIT_S, check=False, env=environment,
                           preexec_fn=limit_files(case.file_limit))

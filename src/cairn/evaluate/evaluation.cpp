@@ -1,53 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/evaluate/evaluation.h"
 
+#include <algorithm>
+
 #include "cairn/core/error.h"
 
 namespace cairn {
 namespace {
 
-Alignment align_pairs(const std::vector<PosePair>& pairs, bool with_scale) {
-  std::vector<Eigen::Vector3d> estimated, true_centres;
-  for (const auto& pair : pairs) {
-    estimated.push_back(pair.estimate.translation);
-    true_centres.push_back(pair.reference.translation);
-  }
-  return align_points(estimated, true_centres, with_scale);
+bool is_finite(const Trajectory& trajectory) {
+  return std::all_of(trajectory.begin(), trajectory.end(), [](const StampedPose& pose) {
+    return pose.world_from_camera.translation.allFinite() &&
+           pose.world_from_camera.rotation.coeffs().allFinite();
+  });
 }
 
-/// False where the poses do not determine the alignment.
-bool align(AlignmentMode mode, TrajectoryEvaluation& evaluation) {
-  if (mode == AlignmentMode::none) return true;
-  const Alignment alignment = align_pairs(evaluation.pairs, mode == AlignmentMode::sim3);
-  evaluation.alignment_status = alignment.status;
-  if (alignment.status != AlignmentStatus::ok) return false;
-  evaluation.reference_from_estimate = alignment.target_from_source;
-  for (auto& pair : evaluation.pairs) pair.estimate = alignment.target_from_source * pair.estimate;
-  return true;
+AbsoluteErrors align(AlignmentMode mode, std::span<const PosePair> pairs) {
+  if (mode == AlignmentMode::none) return {};
+  const Alignment alignment = align_pairs(pairs, mode == AlignmentMode::sim3);
+  return {alignment.status, alignment.target_from_source, alignment.turn_uncertainty, {}, {}};
+}
+
+void summarize(const PoseErrors& errors, AbsoluteErrors& absolute) {
+  absolute.ate_m = summarize_errors(errors.translation_m);
+  absolute.ate_deg = summarize_errors(errors.rotation_deg);
+}
+
+AbsoluteErrors aligned_errors(AlignmentMode mode, std::span<const PosePair> pairs) {
+  AbsoluteErrors absolute = align(mode, pairs);
+  if (absolute.status == AlignmentStatus::ok)
+    summarize(absolute_errors(aligned_pairs(absolute.reference_from_estimate, pairs)), absolute);
+  return absolute;
+}
+
+RelativeErrors measure_rpe(std::span<const PosePair> pairs, const RpeOptions& options) {
+  const PoseErrors errors = relative_errors(pairs, rpe_intervals(pairs, options));
+  return {options, summarize_errors(errors.translation_m), summarize_errors(errors.rotation_deg)};
 }
 
 }  // namespace
 
 void EvaluationOptions::validate() const {
   require(max_gap_s >= 0, "max_gap_s is not below 0");
-  rpe.validate();
+  for (const auto& options : rpe) options.validate();
+  drift.validate();
 }
 
 TrajectoryEvaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& reference,
                                          const EvaluationOptions& options) {
   options.validate();
+  require(is_finite(estimate) && is_finite(reference), "poses to evaluate are finite");
   TrajectoryEvaluation evaluation;
   evaluation.pairs = pair_poses(estimate, reference, options.max_gap_s);
   if (evaluation.pairs.empty()) return evaluation;
-  evaluation.status = EvaluationStatus::not_alignable;
-  if (!align(options.alignment, evaluation)) return evaluation;
+  evaluation.se3 = aligned_errors(AlignmentMode::se3, evaluation.pairs);
+  evaluation.sim3 = aligned_errors(AlignmentMode::sim3, evaluation.pairs);
+  evaluation.absolute = align(options.alignment, evaluation.pairs);
+  if (evaluation.absolute.status != AlignmentStatus::ok) {
+    evaluation.status = EvaluationStatus::not_alignable;
+    return evaluation;
+  }
   evaluation.status = EvaluationStatus::ok;
-  evaluation.absolute = absolute_errors(evaluation.pairs);
-  evaluation.ate_m = summarize_errors(evaluation.absolute.translation_m);
-  evaluation.ate_deg = summarize_errors(evaluation.absolute.rotation_deg);
-  const PoseErrors relative = relative_errors(evaluation.pairs, rpe_intervals(evaluation.pairs, options.rpe));
-  evaluation.rpe_m = summarize_errors(relative.translation_m);
-  evaluation.rpe_deg = summarize_errors(relative.rotation_deg);
+  evaluation.pairs = aligned_pairs(evaluation.absolute.reference_from_estimate, evaluation.pairs);
+  evaluation.errors = absolute_errors(evaluation.pairs);
+  summarize(evaluation.errors, evaluation.absolute);
+  for (const auto& rpe : options.rpe) evaluation.relative.push_back(measure_rpe(evaluation.pairs, rpe));
+  evaluation.drift = measure_drift(evaluation.pairs, options.drift);
   return evaluation;
 }
 

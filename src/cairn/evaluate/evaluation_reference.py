@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reference values of evaluation_test.cpp: `python3 evaluation_reference.py`.
 
-ATE and RPE as evo defines them, written a second time and another way: matrices as nested lists, the rotation of
-the alignment from Horn's quaternion (1987) instead of Umeyama's SVD. Needs nothing but Python.
+ATE and RPE as evo defines them and KITTI's drift, written a second time and another way: matrices as nested lists,
+the rotation of the alignment from Horn's quaternion (1987) instead of Umeyama's SVD. Needs nothing but Python.
+evaluation_evo.py asks evo itself.
 """
 import math
 import statistics
@@ -48,6 +49,29 @@ def estimated_pose(i):
     moved = apply(turn, [t[k] + noise[k] for k in range(3)])
     wobble = rotation([0.01 * math.cos(3 * i), 0.01 * math.sin(2 * i), 0.01 * math.cos(i)])
     return (multiply(turn, multiply(r, wobble)), [0.8 * moved[k] + k + 1 for k in range(3)])
+
+
+def wobble(i):
+    return rotation([0.001 * math.sin(i), 0.002 * math.cos(2 * i), 0.001 * math.sin(3 * i)])
+
+
+def true_drive(i):
+    """A drive of 1.3 km, about 3 m a frame."""
+    turn = rotation([0.01 * math.sin(0.7 * i), 0.02 * math.cos(0.3 * i), 0.8 * math.sin(0.02 * i) + 0.1])
+    return turn, [3 * i + 20 * math.sin(0.05 * i), 40 * math.sin(0.03 * i), math.sin(0.01 * i)]
+
+
+def estimated_drive(i):
+    """1 % too long, slowly turning away."""
+    r, t = true_drive(i)
+    away = rotation([0.00001 * i, 0.00002 * i, 0.0001 * i + 0.001])
+    place = apply(away, t)
+    return (multiply(away, multiply(r, wobble(i))),
+            [1.01 * place[k] + 0.05 * math.sin((k + 2) * i) for k in range(3)])
+
+
+ROOM = ([reference_pose(i) for i in range(12)], [estimated_pose(i) for i in range(12)])
+DRIVE = ([true_drive(i) for i in range(400)], [estimated_drive(i) for i in range(400)])
 
 
 def largest_eigenvector(n):
@@ -105,13 +129,16 @@ def relative(a, b):
     return multiply(rt, b[0]), apply(rt, [b[1][k] - a[1][k] for k in range(3)])
 
 
-def evaluate(mode, intervals_of):
-    ref = [reference_pose(i) for i in range(12)]
-    est = [estimated_pose(i) for i in range(12)]
-    if mode != 'none':
-        scale, r, t = align([p[1] for p in est], [p[1] for p in ref], mode == 'sim3')
-        est = [(multiply(r, p[0]), [scale * x + y for x, y in zip(apply(r, p[1]), t)]) for p in est]
-        print(f'scale {scale:.15g}')
+def aligned(mode, ref, est):
+    if mode == 'none':
+        return est
+    scale, r, t = align([p[1] for p in est], [p[1] for p in ref], mode == 'sim3')
+    print(f'scale {scale:.15g}')
+    return [(multiply(r, p[0]), [scale * x + y for x, y in zip(apply(r, p[1]), t)]) for p in est]
+
+
+def evaluate(mode, intervals_of, ref, est):
+    est = aligned(mode, ref, est)
     show('ate_m', [math.dist(p[1], q[1]) for p, q in zip(est, ref)])
     show('ate_deg', [angle_deg(multiply(transpose(p[0]), q[0])) for p, q in zip(est, ref)])
     errors = [relative(relative(ref[i], ref[j]), relative(est[i], est[j])) for i, j in intervals_of(est)]
@@ -125,32 +152,67 @@ def by_frames(delta, all_pairs):
     return lambda poses: [(i, i + delta) for i in range(0, len(poses) - delta, delta)]
 
 
+def path_of(poses):
+    lengths = [0]
+    for a, b in zip(poses, poses[1:]):
+        lengths.append(lengths[-1] + math.dist(a[1], b[1]))
+    return lengths
+
+
 def by_path(delta, all_pairs):
     def intervals(poses):
-        steps = [0] + [math.dist(a[1], b[1]) for a, b in zip(poses, poses[1:])]
+        path = path_of(poses)
         if all_pairs:
             found = []
             for i in range(len(poses) - 1):
-                off = {j: abs(sum(steps[i + 1:j + 1]) - delta) for j in range(i + 1, len(poses))}
+                off = {j: abs(path[j] - path[i] - delta) for j in range(i + 1, len(poses))}
                 j = min(off, key=off.get)
                 if off[j] <= 0.1 * delta:
                     found.append((i, j))
             return found
-        marks, path = [], 0
-        for i, step in enumerate(steps):
-            path += step
-            if path >= delta:
+        marks, begun = [], 0
+        for i, length in enumerate(path):
+            if length - begun >= delta:
                 marks.append(i)
-                path = 0
+                begun = length
         return list(zip(marks, marks[1:]))
     return intervals
 
 
-for mode, name, intervals_of in [('none', '1 frame', by_frames(1, False)),
-                                 ('se3', '1 frame', by_frames(1, False)),
-                                 ('se3', '3 frames', by_frames(3, False)),
-                                 ('se3', '3 frames, all', by_frames(3, True)),
-                                 ('sim3', '1 m', by_path(1.0, False)),
-                                 ('sim3', '1 m, all', by_path(1.0, True))]:
-    print(f'--- {mode}, {name}')
-    evaluate(mode, intervals_of)
+def by_time(delta):
+    """Stamps are 0.1 s apart."""
+    def intervals(poses):
+        nearest = [min(range(i + 1, len(poses)), key=lambda j: abs(0.1 * (j - i) - delta))
+                   for i in range(len(poses) - 1)]
+        return [(i, j) for i, j in enumerate(nearest) if j != len(poses) - 1]
+    return intervals
+
+
+def drift(ref, est):
+    path, rows = path_of(ref), []
+    for length in range(100, 900, 100):
+        for i in range(0, len(ref), 10):
+            j = next((j for j in range(i, len(ref)) if path[j] > path[i] + length), None)
+            if j is not None:
+                r, t = relative(relative(est[i], est[j]), relative(ref[i], ref[j]))
+                rows.append((length, 100 * math.hypot(*t) / length, angle_deg(r) / length))
+    for length in sorted({row[0] for row in rows}) + [None]:
+        chosen = [row for row in rows if length in (None, row[0])]
+        print(f'drift {length}', len(chosen), *(f'{sum(row[k] for row in chosen) / len(chosen):.15g}' for k in (1, 2)))
+
+
+CASES = [('none', '1 frame', by_frames(1, False), ROOM),
+         ('se3', '1 frame', by_frames(1, False), ROOM),
+         ('se3', '3 frames', by_frames(3, False), ROOM),
+         ('se3', '3 frames, all', by_frames(3, True), ROOM),
+         ('sim3', '1 m', by_path(1.0, False), ROOM),
+         ('sim3', '1 m, all', by_path(1.0, True), ROOM),
+         ('se3', '0.3 s', by_time(0.3), ROOM),
+         ('se3', '10 m, drive', by_path(10.0, False), DRIVE),
+         ('sim3', '10 frames, drive', by_frames(10, True), DRIVE)]
+
+if __name__ == '__main__':
+    for mode, name, intervals_of, poses in CASES:
+        print(f'--- {mode}, {name}')
+        evaluate(mode, intervals_of, *poses)
+    drift(DRIVE[0], aligned('se3', *DRIVE))

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <vector>
 
+#include "cairn/geometry/alignment.h"
 #include "cairn/sequence/trajectory.h"
 
 namespace cairn {
@@ -21,5 +24,17 @@ struct PosePair {
 /// may take one twice; the two agree wherever the gap is under half the spacing of the stamps.
 [[nodiscard]] std::vector<PosePair> pair_poses(const Trajectory& estimate, const Trajectory& reference,
                                                double max_gap_s);
+
+/// Pairs that are associated already: 16 values a line, estimate then reference, each as a line of a TUM
+/// trajectory. The order of the lines is kept, whatever the stamps. InputError as for a trajectory.
+[[nodiscard]] std::vector<PosePair> read_pose_pairs(const std::filesystem::path& path);
+
+/// The alignment of the estimated camera centres to the true ones, reference_from_estimate: see align_points.
+[[nodiscard]] Alignment align_pairs(std::span<const PosePair> pairs, bool with_scale);
+/// The pairs with their estimates mapped into the reference's world.
+[[nodiscard]] std::vector<PosePair> aligned_pairs(const Similarity3& reference_from_estimate,
+                                                  std::span<const PosePair> pairs);
+/// Root mean square distance of the camera centres, metres; 0 for no pairs.
+[[nodiscard]] double rms_distance(std::span<const PosePair> pairs);
 
 }  // namespace cairn

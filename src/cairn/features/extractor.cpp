@@ -8,6 +8,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
 #include "cairn/features/opencv_extractor.h"
+#include "cairn/features/orb.h"
 #include "cairn/features/sift.h"
 
 namespace cairn {
@@ -68,6 +69,11 @@ std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {
   FeatureOptions named = options;
   named.detector = upper(options.detector);
   named.descriptor = upper(options.descriptor);
+  if (named.detector == "ORB") {
+    OrbOptions orb;
+    orb.count = options.count;
+    return make_orb_extractor(orb);
+  }
   if (named.detector == "SIFT") {
     SiftOptions sift;
     sift.count = options.count;

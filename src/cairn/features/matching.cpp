@@ -2,109 +2,180 @@
 #include "cairn/features/matching.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
+#include <iterator>
+
+#include "cairn/features/kernels/nearest_kernels.h"
+#include "cairn/features/packed_descriptors.h"
 
 namespace cairn {
 namespace {
 
-/// Nearest neighbours in both directions from one pass over all pairs.
-class MutualNearest {
- public:
-  MutualNearest(std::size_t queries, std::size_t trains)
-      : train_of_query_(queries), query_of_train_(trains) {}
+constexpr std::size_t kTileRows = 4;       // as many queries as the kernels work on at once
+constexpr std::size_t kTileBytes = 65536;  // of packed trains, which stay in a near cache for a block
+constexpr std::size_t kMaxTileGroups = 64;
 
-  void see(std::size_t query, std::size_t train, std::uint32_t distance) {
-    update(train_of_query_[query], train, distance);
-    update(query_of_train_[train], query, distance);
+/// Nearest train of each query and, where asked for, nearest query of each train.
+struct Nearest {
+  std::vector<TwoSmallest> of_query;
+  std::vector<std::int32_t> query_of_train;  // -1 never occurs where there is a query
+};
+
+struct Wanted {
+  bool second = false;  // nearest of each query
+  bool mutual = false;
+};
+
+/// Smallest distances of trains, padded to whole groups.
+struct Columns {
+  explicit Columns(std::size_t count) : distances(count, kNoDistance), rows(count, -1) {}
+  std::vector<std::int32_t> distances, rows;
+
+  [[nodiscard]] ColumnMinima from(std::size_t column) {
+    return {distances.data() + column, rows.data() + column};
+  }
+  /// Those of later rows: they win where they are strictly nearer.
+  void merge(const Columns& later) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (later.distances[i] < distances[i]) distances[i] = later.distances[i], rows[i] = later.rows[i];
+  }
+};
+
+/// Joins what a tile of higher places holds.
+void join(TwoSmallest& so_far, TwoSmallest tile, std::size_t first_place) {
+  const auto offset = static_cast<std::int32_t>(first_place);
+  if (tile.first_at >= 0) tile.first_at += offset;
+  if (tile.second_at >= 0) tile.second_at += offset;
+  if (tile.first < so_far.first) {
+    if (so_far.first <= tile.second) tile.second = so_far.first, tile.second_at = so_far.first_at;
+    so_far = tile;
+  } else if (tile.first < so_far.second) {
+    so_far.second = tile.first, so_far.second_at = tile.first_at;
+  }
+}
+
+/// All pairs in tiles of a few queries and as many trains as the cache holds.
+class Search {
+ public:
+  Search(const Descriptors& query, const Descriptors& train, Wanted wanted)
+      : query_(query), train_(train), wanted_(wanted), kernels_(nearest_kernels()) {
+    const std::size_t groups = kTileBytes / std::max<std::size_t>(1, train_.bytes_per_group());
+    tile_groups_ = std::clamp<std::size_t>(groups, 1, kMaxTileGroups);
   }
 
-  [[nodiscard]] std::vector<Match> matches(Norm norm) const {
-    std::vector<Match> result;
-    for (std::size_t q = 0; q < train_of_query_.size(); ++q) {
-      const Nearest& train = train_of_query_[q];
-      if (train.index == kNone || query_of_train_[train.index].index != q) continue;
-      const auto distance = static_cast<float>(train.distance);
-      result.push_back({static_cast<std::int32_t>(q), static_cast<std::int32_t>(train.index),
-                        norm == Norm::l2 ? std::sqrt(distance) : distance});
-    }
-    return result;
+  [[nodiscard]] Nearest run(const Executor& executor) const {
+    Nearest nearest;
+    nearest.of_query.resize(query_.count());
+    const std::size_t grain = rows_per_block(), blocks = (query_.count() + grain - 1) / grain;
+    std::vector<Columns> columns(wanted_.mutual ? blocks : 0, Columns(0));
+    executor.for_each(blocks, [&](std::size_t block) {
+      const std::size_t begin = block * grain, end = std::min(query_.count(), begin + grain);
+      Columns minima(columns.empty() ? 0 : train_.groups() * kPackedLanes);
+      search_block(begin, end, nearest.of_query, minima);
+      if (!columns.empty()) columns[block] = std::move(minima);
+    });
+    for (std::size_t block = 1; block < columns.size(); ++block) columns[0].merge(columns[block]);
+    if (!columns.empty()) nearest.query_of_train = std::move(columns[0].rows);
+    return nearest;
   }
 
  private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  struct Nearest {
-    std::uint32_t index = kNone;
-    std::uint32_t distance = kNone;
-  };
-  static void update(Nearest& nearest, std::size_t index, std::uint32_t distance) {
-    if (distance < nearest.distance) nearest = {static_cast<std::uint32_t>(index), distance};
+  /// Does not depend on the number of threads; few enough blocks that their columns take little memory.
+  [[nodiscard]] std::size_t rows_per_block() const {
+    constexpr std::size_t kFewest = 128, kMostBlocks = 64;
+    return std::max(kFewest, (query_.count() / kMostBlocks + kTileRows) / kTileRows * kTileRows);
   }
 
-  std::vector<Nearest> train_of_query_, query_of_train_;
-};
-
-/// Bits that differ in `words` 64-bit words; without the instruction, std::popcount counts by shifts and
-/// masks.
-inline std::uint32_t hamming(const std::uint64_t* a, const std::uint64_t* b, std::size_t words) {
-  int bits = 0;
-  for (std::size_t w = 0; w < words; ++w) bits += std::popcount(a[w] ^ b[w]);
-  return static_cast<std::uint32_t>(bits);
-}
-
-template <std::size_t kFixedWords>
-[[gnu::always_inline]] inline void see_all_hamming(const Descriptors& query, const Descriptors& train,
-                                                   MutualNearest& nearest) {
-  const std::size_t words = kFixedWords > 0 ? kFixedWords : query.stride() / 8;
-  for (std::size_t q = 0; q < query.count(); ++q) {
-    const std::uint64_t* a = query.words() + q * words;
-    for (std::size_t t = 0; t < train.count(); ++t)
-      nearest.see(q, t, hamming(a, train.words() + t * words, words));
-  }
-}
-
-void match_hamming_plain(const Descriptors& query, const Descriptors& train, MutualNearest& nearest) {
-  see_all_hamming<0>(query, train, nearest);
-}
-
-#ifdef __x86_64__
-[[gnu::target("popcnt")]] void match_hamming_popcnt(const Descriptors& query, const Descriptors& train,
-                                                    MutualNearest& nearest) {
-  constexpr std::size_t kOrbWords = 4;
-  query.stride() == 8 * kOrbWords ? see_all_hamming<kOrbWords>(query, train, nearest)
-                                  : see_all_hamming<0>(query, train, nearest);
-}
-#endif
-
-void match_hamming(const Descriptors& query, const Descriptors& train, MutualNearest& nearest) {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("popcnt")) return match_hamming_popcnt(query, train, nearest);
-#endif
-  match_hamming_plain(query, train, nearest);
-}
-
-void match_l2(const Descriptors& query, const Descriptors& train, MutualNearest& nearest) {
-  for (std::size_t q = 0; q < query.count(); ++q) {
-    const std::uint8_t* a = query.row(q);
-    for (std::size_t t = 0; t < train.count(); ++t) {
-      const std::uint8_t* b = train.row(t);
-      std::int32_t squared = 0;
-      for (std::size_t i = 0; i < query.stride(); ++i) squared += (a[i] - b[i]) * (a[i] - b[i]);
-      nearest.see(q, t, static_cast<std::uint32_t>(squared));
+  void search_block(std::size_t begin, std::size_t end, std::vector<TwoSmallest>& of_query,
+                    Columns& minima) const {
+    std::vector<std::int32_t> distances(kTileRows * tile_groups_ * kPackedLanes);
+    for (std::size_t group = 0; group < train_.groups(); group += tile_groups_) {
+      const std::size_t groups = std::min(tile_groups_, train_.groups() - group);
+      for (std::size_t row = begin; row < end; row += kTileRows) {
+        const std::size_t rows = std::min(kTileRows, end - row);
+        train_.measure(query_, row, rows, group, groups, distances.data());
+        see_rows(distances.data(), row, rows, group, groups, of_query);
+        if (wanted_.mutual)
+          kernels_.update_columns(distances.data(), rows, groups * kPackedLanes,
+                                  static_cast<std::int32_t>(row), minima.from(group * kPackedLanes));
+      }
     }
   }
+
+  void see_rows(const std::int32_t* distances, std::size_t row, std::size_t rows, std::size_t group,
+                std::size_t groups, std::vector<TwoSmallest>& of_query) const {
+    const std::size_t columns = groups * kPackedLanes;
+    const auto smallest = wanted_.second ? kernels_.two_smallest : kernels_.smallest;
+    for (std::size_t r = 0; r < rows; ++r)
+      join(of_query[row + r], smallest(distances + r * columns, columns), group * kPackedLanes);
+  }
+
+  const Descriptors& query_;
+  PackedDescriptors train_;
+  Wanted wanted_;
+  const NearestKernels& kernels_;
+  std::size_t tile_groups_ = 1;
+};
+
+Match to_match(Norm norm, std::size_t query, std::int32_t train, std::int32_t measured) {
+  const float distance = train < 0 ? std::numeric_limits<float>::infinity() : match_distance(norm, measured);
+  return {static_cast<std::int32_t>(query), train, distance};
+}
+
+bool is_believed(const Match& first, const Match& second, const MatchOptions& options) {
+  const bool unrivalled =
+      options.max_ratio == 0 ||
+      static_cast<double>(first.distance) < options.max_ratio * static_cast<double>(second.distance);
+  return unrivalled && static_cast<double>(first.distance) <= options.max_distance;
+}
+
+Nearest search(const Descriptors& query, const Descriptors& train, const Wanted& wanted,
+               const Executor& executor) {
+  if (query.count() == 0 || train.count() == 0) return {};
+  require_comparable(query, train);
+  return Search(query, train, wanted).run(executor);
 }
 
 }  // namespace
 
-std::vector<Match> match_mutual(const Descriptors& query, const Descriptors& train) {
-  if (query.count() == 0 || train.count() == 0) return {};
-  require(query.norm() == train.norm() && query.bytes() == train.bytes(),
-          "both sides have descriptors of one kind");
-  MutualNearest nearest(query.count(), train.count());
-  query.norm() == Norm::hamming ? match_hamming(query, train, nearest) : match_l2(query, train, nearest);
-  return nearest.matches(query.norm());
+void MatchOptions::validate() const {
+  require(max_distance >= 0, "the distance limit is not negative");
+  require(max_ratio >= 0, "the ratio is not negative");
+}
+
+std::vector<Match> match_descriptors(const Descriptors& query, const Descriptors& train,
+                                     const MatchOptions& options, const Executor& executor) {
+  options.validate();
+  const Nearest nearest = search(query, train, {options.max_ratio > 0, options.mutual}, executor);
+  std::vector<Match> matches;
+  for (std::size_t q = 0; q < nearest.of_query.size(); ++q) {
+    const TwoSmallest& found = nearest.of_query[q];
+    const auto t = static_cast<std::size_t>(found.first_at);
+    if (options.mutual && nearest.query_of_train[t] != static_cast<std::int32_t>(q)) continue;
+    const Match first = to_match(query.norm(), q, found.first_at, found.first);
+    const Match second = to_match(query.norm(), q, found.second_at, found.second);
+    if (is_believed(first, second, options)) matches.push_back(first);
+  }
+  return matches;
+}
+
+std::vector<std::array<Match, 2>> match_two_nearest(const Descriptors& query, const Descriptors& train,
+                                                    const Executor& executor) {
+  const Nearest nearest = search(query, train, {true, false}, executor);
+  std::vector<std::array<Match, 2>> matches;
+  matches.reserve(nearest.of_query.size());
+  for (std::size_t q = 0; q < nearest.of_query.size(); ++q) {
+    const TwoSmallest& found = nearest.of_query[q];
+    matches.push_back({to_match(query.norm(), q, found.first_at, found.first),
+                       to_match(query.norm(), q, found.second_at, found.second)});
+  }
+  return matches;
+}
+
+std::vector<Match> match_mutual(const Descriptors& query, const Descriptors& train,
+                                const Executor& executor) {
+  MatchOptions options;
+  options.mutual = true;
+  return match_descriptors(query, train, options, executor);
 }
 
 std::vector<Match> filter_by_distance(const std::vector<Match>& matches, double factor, double floor) {

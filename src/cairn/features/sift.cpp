@@ -12,7 +12,7 @@
 #include "cairn/features/sift_orientation.h"
 #include "cairn/features/sift_patch.h"
 #include "cairn/features/sift_scale_space.h"
-#include "cairn/features/sift_selection.h"
+#include "cairn/features/spread.h"
 
 namespace cairn {
 namespace {

@@ -31,13 +31,24 @@ enum class AlignmentStatus {
   too_few_points,  ///< fewer than 3
   one_place,       ///< all points of a set are the same
   one_line,        ///< all points of a set lie on one line, so the turn about it is free
+  mirrored,        ///< the sets are mirror images in such a way that several rotations fit equally well
 };
 
 struct Alignment {
   AlignmentStatus status = AlignmentStatus::too_few_points;
   Similarity3 target_from_source;  ///< the identity unless status is ok
   double rmse = 0;                 ///< root mean square of what remains, in the target's unit
+  /// How far the residuals can turn the result about the points' main line, radians up to pi: root mean
+  /// square of what remains across that line by how far the points spread across it. Where points lie nearly
+  /// on a line, only this spread fixes that turn. As if residuals did not average out, as those of drift do
+  /// not.
+  double turn_uncertainty = 0;
 };
+
+/// sqrt(mean || target_i - target_from_source source_i ||^2), 0 for no points.
+[[nodiscard]] double rms_distance(const Similarity3& target_from_source,
+                                  std::span<const Eigen::Vector3d> source,
+                                  std::span<const Eigen::Vector3d> target);
 
 /// The similarity (or with `with_scale` false the rigid transform) with the least squared distances
 ///
@@ -45,7 +56,9 @@ struct Alignment {
 ///
 /// in closed form (Umeyama 1991, eq. 34 to 42): with U D V^T the singular values of the covariance of target
 /// and source, R = U S V^T, s = tr(D S) / var(source), t = mean(target) - s R mean(source), where S =
-/// diag(1, 1, det U det V) excludes reflections. Points correspond by position; both spans have one length.
+/// diag(1, 1, det U det V) excludes reflections. It is unique where d_2 + S_33 d_3 > 0, d_i the singular
+/// values in falling order; else the status says why not. Points correspond by position; both spans have one
+/// length. PreconditionError for a coordinate that is not a number below 1e100.
 [[nodiscard]] Alignment align_points(std::span<const Eigen::Vector3d> source,
                                      std::span<const Eigen::Vector3d> target, bool with_scale);
 

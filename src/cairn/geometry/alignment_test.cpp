@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 #include "cairn/core/error.h"
@@ -111,6 +112,47 @@ TEST(Alignment, SaysWhyThereIsNone) {
   EXPECT_EQ(status(plane, place), AlignmentStatus::one_place);
   EXPECT_EQ(status(plane, plane), AlignmentStatus::ok);
   EXPECT_THROW((void)status(plane, {}), PreconditionError);
+}
+
+TEST(Alignment, HasNoAnswerWhereSeveralRotationsFitAMirrorImage) {
+  const Points axes{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  Points mirrored = axes;
+  for (auto& point : mirrored) point.z() = -point.z();
+  EXPECT_EQ(align_points(axes, mirrored, true).status, AlignmentStatus::mirrored);
+  for (auto& point : mirrored)
+    point.x() *= 2;  // now one rotation, which keeps x, fits better than all others
+  mirrored[2] *= 1.5;
+  mirrored[3] *= 1.5;
+  EXPECT_EQ(align_points(axes, mirrored, true).status, AlignmentStatus::ok);
+}
+
+TEST(Alignment, RefusesCoordinatesThatAreNoNumbers) {
+  const Points good{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const double bad : {std::nan(""), HUGE_VAL, -1e200}) {
+    Points points = good;
+    points[1].y() = bad;
+    EXPECT_THROW((void)align_points(points, good, false), PreconditionError);
+    EXPECT_THROW((void)align_points(good, points, false), PreconditionError);
+  }
+}
+
+TEST(Alignment, SaysHowFarTheTurnAboutTheMainLineIsKnown) {
+  Random random(4);
+  Points source, noisy;
+  for (int i = 0; i < 200; ++i) {
+    source.emplace_back(0.1 * i, 1e-2 * random.normal(), 1e-2 * random.normal());
+    noisy.emplace_back(0.1 * i, 1e-2 * random.normal(), 1e-2 * random.normal());
+  }
+  const Similarity3 truth{1.5, rotation_exp({0.4, -0.2, 0.7}), {1, 2, 3}};
+  EXPECT_LT(align_points(source, mapped(truth, source), true).turn_uncertainty, 1e-6);
+  EXPECT_GT(align_points(source, mapped(truth, noisy), true).turn_uncertainty, 0.5);
+}
+
+TEST(Alignment, MeasuresDistances) {
+  const Points source{{0, 0, 0}, {1, 0, 0}}, target{{3, 4, 0}, {1, 0, 0}};
+  EXPECT_DOUBLE_EQ(rms_distance({}, source, target), std::sqrt(12.5));
+  EXPECT_EQ(rms_distance({}, {}, {}), 0);
+  EXPECT_THROW((void)rms_distance({}, source, {}), PreconditionError);
 }
 
 TEST(Alignment, MapsPoses) {

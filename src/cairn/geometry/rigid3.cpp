@@ -35,6 +35,13 @@ Rigid3 perturb_left(const Vector6d& xi, const Rigid3& target_from_source) {
           turn * target_from_source.translation + xi.tail<3>()};
 }
 
+Vector6d left_perturbation(const Rigid3& from, const Rigid3& to) {
+  const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
+  Vector6d xi;
+  xi << rotation_log(turn), to.translation - turn * from.translation;
+  return xi;
+}
+
 double motion_norm(const Rigid3& motion) {
   return rotation_angle(motion.rotation) + motion.translation.norm();
 }

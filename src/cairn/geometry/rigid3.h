@@ -43,6 +43,9 @@ struct Rigid3 {
 /// exp(w) * R and exp(w) * t + v for xi = (w, v). The translation part is not multiplied by the left
 /// Jacobian.
 [[nodiscard]] Rigid3 perturb_left(const Vector6d& xi, const Rigid3& target_from_source);
+/// The xi with perturb_left(xi, from) = to, angle in [0, pi]: the error of an estimate `from` of a true `to`,
+/// in the coordinates in which solvers state covariances.
+[[nodiscard]] Vector6d left_perturbation(const Rigid3& from, const Rigid3& to);
 
 /// Matrix with skew(a) * b = a x b.
 [[nodiscard]] inline Eigen::Matrix3d skew(const Eigen::Vector3d& a) {

@@ -117,6 +117,14 @@ TEST_F(Rigid3Test, no_perturbation_changes_nothing) {
   EXPECT_LT(distance(perturb_left(Vector6d::Zero(), a_from_b), a_from_b), 1e-15);
 }
 
+TEST_F(Rigid3Test, left_perturbation_is_found_again) {
+  const Rigid3 a_from_b = random_transform(random_);
+  Vector6d xi;
+  xi << 0.3, -1.2, 0.7, 4, -5, 6;
+  EXPECT_LT((left_perturbation(a_from_b, perturb_left(xi, a_from_b)) - xi).norm(), 1e-13);
+  EXPECT_LT(left_perturbation(a_from_b, a_from_b).norm(), 1e-14);
+}
+
 TEST_F(Rigid3Test, skew_is_the_cross_product) {
   const Eigen::Vector3d a = random_vector(random_, 1), b = random_vector(random_, 1);
   EXPECT_LT((skew(a) * b - a.cross(b)).norm(), 1e-16);

@@ -13,15 +13,28 @@ namespace {
 
 constexpr std::string_view kLayout = "t tx ty tz qx qy qz qw";
 
-StampedPose parse_pose(const TextFile& file, const TextLine& line) {
-  file.expect_fields(line, 8, kLayout);
+double parse_coordinate(const TextFile& file, const TextLine& line, std::size_t field,
+                        std::string_view name) {
+  constexpr double kFarthest = 1e12;  // metres; beyond the planets, and squares stay far from overflow
+  const double value = file.number(line, field, name);
+  if (std::abs(value) <= kFarthest) return value;
+  file.fail(line, fmt::format("{} of at most 1e12 metres", name), fmt::format("{:g}", value),
+            fmt::format("Check the order of the columns: {}.", kLayout));
+}
+
+}  // namespace
+
+StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size_t first) {
   StampedPose pose;
-  if (!parse_stamp(line.fields[0], pose.stamp_ns)) {
-    file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[0]),
+  if (!parse_stamp(line.fields.at(first), pose.stamp_ns)) {
+    file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[first]),
               "Mend or delete the line.");
   }
-  const auto value = [&](std::size_t i, std::string_view what) { return file.number(line, i, what); };
-  pose.world_from_camera.translation = {value(1, "tx"), value(2, "ty"), value(3, "tz")};
+  const auto place = [&](std::size_t i, std::string_view name) {
+    return parse_coordinate(file, line, first + i, name);
+  };
+  const auto value = [&](std::size_t i, std::string_view name) { return file.number(line, first + i, name); };
+  pose.world_from_camera.translation = {place(1, "tx"), place(2, "ty"), place(3, "tz")};
   Eigen::Quaterniond& q = pose.world_from_camera.rotation;
   q = Eigen::Quaterniond(value(7, "qw"), value(4, "qx"), value(5, "qy"), value(6, "qz"));
   const double length = q.norm();
@@ -35,14 +48,13 @@ StampedPose parse_pose(const TextFile& file, const TextLine& line) {
   return pose;
 }
 
-}  // namespace
-
 Trajectory read_tum_trajectory(const std::filesystem::path& path) {
   const TextFile file(path);
   Trajectory trajectory;
   trajectory.reserve(file.lines().size());
   for (const TextLine& line : file.lines()) {
-    const StampedPose pose = parse_pose(file, line);
+    file.expect_fields(line, 8, kLayout);
+    const StampedPose pose = parse_tum_pose(file, line, 0);
     if (!trajectory.empty() && pose.stamp_ns <= trajectory.back().stamp_ns) {
       file.fail(line, fmt::format("a time stamp after {}", format_stamp(trajectory.back().stamp_ns)),
                 format_stamp(pose.stamp_ns), "Sort the file by time and remove double stamps.");

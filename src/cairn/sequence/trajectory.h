@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cairn/core/text.h"
 #include "cairn/geometry/rigid3.h"
 
 namespace cairn {
@@ -18,9 +19,13 @@ struct StampedPose {
 /// Poses in strictly increasing order of time.
 using Trajectory = std::vector<StampedPose>;
 
-/// TUM format: `t tx ty tz qx qy qz qw` a line, t in seconds, '#' comments. InputError names the line for a
-/// wrong number of values, a quaternion of length 0 or a stamp that does not increase. Quaternions are
-/// normalised.
+/// The pose `t tx ty tz qx qy qz qw` in eight fields of a line, from `first` on. The quaternion is
+/// normalised. InputError names the line for what is no number, a place further away than 1e12 m, or a
+/// quaternion whose length is not 1 to a hundredth.
+[[nodiscard]] StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size_t first);
+
+/// TUM format: `t tx ty tz qx qy qz qw` a line, t in seconds, '#' comments. InputError names the line for
+/// what parse_tum_pose refuses, a wrong number of values or a stamp that does not increase.
 [[nodiscard]] Trajectory read_tum_trajectory(const std::filesystem::path& path);
 [[nodiscard]] std::string format_tum_trajectory(const Trajectory& trajectory);
 

@@ -10,14 +10,14 @@
 namespace cairn {
 namespace {
 
-TEST(InstructionSet, PlainIsAlwaysThereAndTheOrderAscends) {
+TEST(InstructionSet, plain_is_always_there_and_the_order_ascends) {
   const auto& sets = available_instruction_sets();
   ASSERT_FALSE(sets.empty());
   EXPECT_EQ(sets.front(), InstructionSet::plain);
   EXPECT_TRUE(std::is_sorted(sets.begin(), sets.end()));
 }
 
-TEST(InstructionSet, TheDefaultIsAvailable) {
+TEST(InstructionSet, the_default_is_available) {
   const auto& sets = available_instruction_sets();
   EXPECT_NE(std::find(sets.begin(), sets.end(), default_instruction_set()), sets.end());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/features/sift_selection.h"
+#include "cairn/features/spread.h"
 
 #include <algorithm>
 #include <cmath>

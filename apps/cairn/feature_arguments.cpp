@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feature_arguments.h"
+
+#include <algorithm>
+
+#include "cairn/core/stopwatch.h"
+#include "cairn/image/codec.h"
+
+namespace cairn::app {
+
+std::unique_ptr<Extractor> FeatureArguments::extractor() const {
+  const bool root = CLI::detail::to_lower(method) == "rootsift";
+  return make_extractor({root ? "SIFT" : method, method, count});
+}
+
+void add_feature_options(CLI::App& app, FeatureArguments& arguments) {
+  app.add_option("--method", arguments.method, "ORB, SIFT and ROOTSIFT are cairn's own, the others OpenCV's")
+      ->check(CLI::IsMember(descriptor_names(), CLI::ignore_case))
+      ->type_name("NAME")
+      ->capture_default_str();
+  app.add_option("--count", arguments.count, "at most so many features of an image")
+      ->check(CLI::Range(1, 10'000'000))
+      ->type_name("N")
+      ->capture_default_str();
+  app.add_option("--repeat", arguments.repeat,
+                 "the time is the median of so many runs, decoding not included")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("R")
+      ->capture_default_str();
+}
+
+TimedFeatures extract_timed(const std::string& path, const FeatureArguments& arguments,
+                            const Extractor& extractor, const Executor& executor) {
+  TimedFeatures timed{path, read_gray(path), {}, 0};
+  timed.time_ms =
+      median_ms(arguments.repeat, [&] { timed.features = extractor.extract(timed.image, executor); });
+  return timed;
+}
+
+double median_ms(int repeat, const std::function<void()>& work) {
+  std::vector<double> times_ms;
+  for (int i = 0; i < repeat; ++i) {
+    const Stopwatch watch;
+    work();
+    times_ms.push_back(1e3 * watch.seconds());
+  }
+  const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
+  std::nth_element(times_ms.begin(), middle, times_ms.end());
+  return *middle;
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "cairn/core/executor.h"
+#include "cairn/features/extractor.h"
+#include "common.h"
+
+namespace cairn::app {
+
+/// What the commands that extract features of single images have in common.
+struct FeatureArguments {
+  CommonOptions common;
+  std::string method = "ORB";
+  int count = FeatureOptions{}.count;
+  int repeat = 1;
+
+  [[nodiscard]] std::unique_ptr<Extractor> extractor() const;
+};
+
+void add_feature_options(CLI::App& app, FeatureArguments& arguments);
+
+/// Features of one image and how long they took.
+struct TimedFeatures {
+  std::string path;
+  GrayImage image;
+  Features features;
+  double time_ms = 0;  ///< median of the repetitions, decoding not included
+};
+
+/// Reads and extracts. InputError for an image that cannot be read.
+[[nodiscard]] TimedFeatures extract_timed(const std::string& path, const FeatureArguments& arguments,
+                                          const Extractor& extractor, const Executor& executor);
+
+/// Milliseconds that `work` takes: the median of `repeat` calls, at least one.
+[[nodiscard]] double median_ms(int repeat, const std::function<void()>& work);
+
+}  // namespace cairn::app

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/image/codec.h"
+#include "cairn/report/feature_picture.h"
+#include "commands.h"
+#include "feature_arguments.h"
+
+namespace cairn::app {
+namespace {
+
+struct FeaturesArguments : FeatureArguments {
+  std::vector<std::string> images;
+  std::string draw, output;
+};
+
+void declare(CLI::App& app, FeaturesArguments& arguments) {
+  app.add_option("IMG", arguments.images, "images: PNG, JPEG, binary PGM or PPM")->required();
+  add_feature_options(app, arguments);
+  app.add_option("--draw", arguments.draw, "picture of one image's keypoints with their scale and angle")
+      ->type_name("OUT.png");
+  app.add_option("--output", arguments.output, "one image's keypoints: u v size angle_deg response")
+      ->type_name("OUT.csv");
+  add_common_options(app, arguments.common, {.threads = true});
+  app.footer("Example: cairn features left.png --method sift --count 2000 --draw keypoints.png");
+}
+
+void check(const FeaturesArguments& arguments) {
+  if (arguments.images.size() == 1) return;
+  for (const auto& [option, path] : {std::pair{"--draw", arguments.draw}, {"--output", arguments.output}}) {
+    if (path.empty()) continue;
+    throw InputError({option, 0, "one image", fmt::format("{} images", arguments.images.size()),
+                      "Run the command once for each image that needs it."});
+  }
+}
+
+std::string format_csv(const std::vector<Keypoint>& keypoints) {
+  std::string csv = "u,v,size,angle_deg,response\n";
+  for (const Keypoint& k : keypoints)
+    csv += fmt::format("{},{},{},{},{}\n", k.u, k.v, k.size, k.angle_deg, k.response);
+  return csv;
+}
+
+nlohmann::ordered_json to_json(const TimedFeatures& timed) {
+  return {{"image", timed.path},
+          {"width", timed.image.width()},
+          {"height", timed.image.height()},
+          {"keypoints", timed.features.keypoints.size()},
+          {"descriptor_bytes", timed.features.descriptors.bytes()},
+          {"time_ms", timed.time_ms}};
+}
+
+std::string to_text(const TimedFeatures& timed) {
+  return fmt::format("{}  {}x{}  {} keypoints  {:.3f} ms\n", timed.path, timed.image.width(),
+                     timed.image.height(), timed.features.keypoints.size(), timed.time_ms);
+}
+
+}  // namespace
+
+int run_features(int argc, char** argv) {
+  FeaturesArguments arguments;
+  CLI::App app("Finds and describes features of images, and says how many and how fast.", "features");
+  declare(app, arguments);
+  if (const auto code = parse(app, argc, argv)) return *code;
+  check(arguments);
+  std::optional<AtomicFile> output;  // before the work: a path that cannot be written is known at once
+  if (!arguments.output.empty()) output.emplace(arguments.output);
+
+  const auto extractor = arguments.extractor();
+  const Executor executor(arguments.common.thread_count());
+  const auto progress = make_progress(arguments.common);
+  progress->start("features", static_cast<std::int64_t>(arguments.images.size()), "images");
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  std::string text;  // printed when all images are known to be good
+  for (std::size_t i = 0; i < arguments.images.size(); ++i) {
+    if (progress->stop_requested()) return 1;
+    const TimedFeatures timed = extract_timed(arguments.images[i], arguments, *extractor, executor);
+    json.push_back(to_json(timed));
+    text += to_text(timed);
+    if (!arguments.draw.empty())
+      write_png(arguments.draw, draw_keypoints(timed.image, timed.features.keypoints));
+    if (output) output->write(format_csv(timed.features.keypoints));
+    progress->update(static_cast<std::int64_t>(i + 1));
+  }
+  progress->finish();
+  if (output) output->commit();
+  if (arguments.common.json)
+    text = nlohmann::ordered_json{{"method", arguments.method}, {"images", json}}.dump(2) + "\n";
+  fmt::print("{}", text);
+  return 0;
+}
+
+}  // namespace cairn::app

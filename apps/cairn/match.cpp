@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cairn/core/file.h"
+#include "cairn/features/matching.h"
+#include "cairn/image/codec.h"
+#include "cairn/report/feature_picture.h"
+#include "commands.h"
+#include "feature_arguments.h"
+
+namespace cairn::app {
+namespace {
+
+struct MatchArguments : FeatureArguments {
+  std::string first, second, output, draw;
+  MatchOptions options;
+  bool one_sided = false;
+};
+
+void declare(CLI::App& app, MatchArguments& arguments) {
+  app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM")->required();
+  app.add_option("B", arguments.second, "image to find A's features in")->required();
+  add_feature_options(app, arguments);
+  app.add_option(
+         "--ratio", arguments.options.max_ratio,
+         "believe a match only if it is nearer than this share of the second nearest; 0: no such test")
+      ->check(number_in(0, 1))
+      ->type_name("X")
+      ->capture_default_str();
+  app.add_option("--max-distance", arguments.options.max_distance,
+                 "bits (ORB) or Euclidean distance of bytes (SIFT) that a match may have (default: any)")
+      ->check(number_in(0, 1e6))
+      ->type_name("D")
+      ->default_str("");
+  app.add_flag("--one-sided", arguments.one_sided, "A's feature need not be the nearest to B's");
+  app.add_option("--output", arguments.output, "the matches: u1 v1 u2 v2 distance")->type_name("OUT.csv");
+  app.add_option("--draw", arguments.draw, "picture of both images with a line for each match")
+      ->type_name("OUT.png");
+  add_common_options(app, arguments.common, {.threads = true, .quiet = false});
+  app.footer("Example: cairn match a.png b.png --method sift --ratio 0.8 --draw matches.png");
+}
+
+std::string format_csv(const TimedFeatures& a, const TimedFeatures& b, const std::vector<Match>& matches) {
+  std::string csv = "u1,v1,u2,v2,distance\n";
+  for (const Match& match : matches) {
+    const Keypoint& from = a.features.keypoints[static_cast<std::size_t>(match.query)];
+    const Keypoint& to = b.features.keypoints[static_cast<std::size_t>(match.train)];
+    csv += fmt::format("{},{},{},{},{}\n", from.u, from.v, to.u, to.v, match.distance);
+  }
+  return csv;
+}
+
+void print_result(const MatchArguments& arguments, const TimedFeatures& a, const TimedFeatures& b,
+                  std::size_t matches, double time_ms) {
+  if (arguments.common.json) {
+    const nlohmann::ordered_json json = {
+        {"method", arguments.method},
+        {"images",
+         {{{"image", a.path}, {"keypoints", a.features.keypoints.size()}, {"time_ms", a.time_ms}},
+          {{"image", b.path}, {"keypoints", b.features.keypoints.size()}, {"time_ms", b.time_ms}}}},
+        {"matches", matches},
+        {"matching_time_ms", time_ms}};
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  for (const TimedFeatures* image : {&a, &b})
+    fmt::print("{}  {} keypoints  {:.3f} ms\n", image->path, image->features.keypoints.size(),
+               image->time_ms);
+  fmt::print("{} matches  {:.3f} ms\n", matches, time_ms);
+}
+
+}  // namespace
+
+int run_match(int argc, char** argv) {
+  MatchArguments arguments;
+  CLI::App app("Finds the features of one image in another.", "match");
+  declare(app, arguments);
+  if (const auto code = parse(app, argc, argv)) return *code;
+  arguments.options.mutual = !arguments.one_sided;
+  std::optional<AtomicFile> output;  // before the work: a path that cannot be written is known at once
+  if (!arguments.output.empty()) output.emplace(arguments.output);
+
+  const auto extractor = arguments.extractor();
+  const Executor executor(arguments.common.thread_count());
+  const TimedFeatures a = extract_timed(arguments.first, arguments, *extractor, executor);
+  const TimedFeatures b = extract_timed(arguments.second, arguments, *extractor, executor);
+  std::vector<Match> matches;
+  const double time_ms = median_ms(arguments.repeat, [&] {
+    matches = match_descriptors(a.features.descriptors, b.features.descriptors, arguments.options, executor);
+  });
+  if (!arguments.draw.empty())
+    write_png(arguments.draw,
+              draw_matches(a.image, a.features.keypoints, b.image, b.features.keypoints, matches));
+  if (output) {
+    output->write(format_csv(a, b, matches));
+    output->commit();
+  }
+  print_result(arguments, a, b, matches.size(), time_ms);
+  return 0;
+}
+
+}  // namespace cairn::app

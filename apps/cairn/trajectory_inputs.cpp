@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trajectory_inputs.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+#include "cairn/sequence/sequence.h"
+
+namespace cairn::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string time_range(const Trajectory& trajectory) {
+  return fmt::format("{} to {} s, {} poses", format_stamp(trajectory.front().stamp_ns),
+                     format_stamp(trajectory.back().stamp_ns), trajectory.size());
+}
+
+}  // namespace
+
+Trajectory read_estimate(const fs::path& path) {
+  if (!fs::is_directory(path)) return read_tum_trajectory(path);
+  const fs::path inside = path / "trajectory.txt";
+  if (fs::exists(inside)) return read_tum_trajectory(inside);
+  throw InputError({path.string(), 0, "a trajectory file, or a run's folder with trajectory.txt",
+                    "a folder without one", "Name the file that holds the trajectory."});
+}
+
+Trajectory read_reference(const fs::path& path, const std::string& camera) {
+  if (!fs::is_directory(path) || fs::exists(path / "run.json")) return read_estimate(path);
+  SequenceOptions options;
+  options.camera = camera;
+  const Sequence sequence = open_sequence(path, options);
+  if (sequence.truth && !sequence.truth->empty()) return *sequence.truth;
+  throw InputError({path.string(), 0, "a sequence with true poses", fmt::format("none ({})", sequence.format),
+                    "Name a trajectory file as REF."});
+}
+
+std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference, double max_gap_s) {
+  return fmt::format(
+      "no pose of EST is within {} s of a pose of REF.\n  EST {}\n  REF {}\n"
+      "  If the times overlap, raise --max-gap; if not, the clocks differ or the files do not belong "
+      "together.",
+      max_gap_s, time_range(estimate), time_range(reference));
+}
+
+std::string_view explain(AlignmentStatus status) {
+  switch (status) {
+    case AlignmentStatus::too_few_points:
+      return "fewer than 3 pairs of poses do not determine it";
+    case AlignmentStatus::one_place:
+      return "all poses of one trajectory are at one place";
+    case AlignmentStatus::one_line:
+      return "all poses of one trajectory lie on one line, so the turn about it is free";
+    case AlignmentStatus::mirrored:
+      return "the trajectories are mirror images, and several rotations fit equally well";
+    case AlignmentStatus::ok:
+      break;
+  }
+  return "";
+}
+
+void warn_of_free_turn(std::string_view name, double turn_uncertainty) {
+  constexpr double kFreeDeg = 10;
+  const double degrees = 180.0 / std::numbers::pi * turn_uncertainty;
+  if (degrees <= kFreeDeg) return;
+  fmt::print(
+      stderr,
+      "cairn: {}: the poses lie nearly on one line: the turn about it, and with it every rotation after the\n"
+      "  alignment, is good to about {:.0f} deg only.\n",
+      name, degrees);
+}
+
+std::string short_name(const std::string& path) {
+  const fs::path whole = fs::path(path).lexically_normal();
+  const auto named = whole.has_filename() ? whole : whole.parent_path();
+  return (named.parent_path().filename() / named.filename()).string();
+}
+
+void add_similarity(const Similarity3& map, nlohmann::ordered_json& json) {
+  json["scale"] = map.scale;
+  json["rotation_xyzw"] = {map.rotation.x(), map.rotation.y(), map.rotation.z(), map.rotation.w()};
+  json["translation_m"] = {map.translation.x(), map.translation.y(), map.translation.z()};
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "cairn/geometry/alignment.h"
+#include "cairn/sequence/trajectory.h"
+
+namespace cairn::app {
+
+/// What the commands that compare trajectories share.
+
+/// A trajectory file, or the one of a run's folder.
+[[nodiscard]] Trajectory read_estimate(const std::filesystem::path& path);
+/// A trajectory file, the one of a run, or a sequence's truth; `camera` as --camera has it.
+[[nodiscard]] Trajectory read_reference(const std::filesystem::path& path, const std::string& camera);
+
+/// Why no two poses are near in time, and what to do; some lines for stderr.
+[[nodiscard]] std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference,
+                                           double max_gap_s);
+/// Why there is no alignment; part of a sentence, empty for ok.
+[[nodiscard]] std::string_view explain(AlignmentStatus status);
+/// Says on stderr where the turn about the main line of the path is hardly determined
+/// (Alignment::turn_uncertainty, radians). `name` is the estimate's.
+void warn_of_free_turn(std::string_view name, double turn_uncertainty);
+
+/// The last two parts of a path: "run/trajectory.txt".
+[[nodiscard]] std::string short_name(const std::string& path);
+
+/// The keys scale, rotation_xyzw and translation_m.
+void add_similarity(const Similarity3& map, nlohmann::ordered_json& json);
+
+}  // namespace cairn::app

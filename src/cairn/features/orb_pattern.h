@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/features/kernels/orb_kernels.h"
+
+namespace cairn {
+
+/// The 256 pairs of ORB (Rublee, Rabaud, Konolige and Bradski, ICCV 2011, section 4.3: learned to be
+/// uncorrelated and spread evenly), so that descriptors mean the same as those of other implementations;
+/// within 13 pixels of the centre along each axis.
+[[nodiscard]] const BriefPattern& orb_pattern();
+
+constexpr int kPatternReach = 18;  ///< pixels: the farthest rounded place of a turned pattern
+
+}  // namespace cairn

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/colors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cairn {
+
+/// The plasma colour map (van der Walt and Smith 2015) up to 85 %: its yellow end is lost on white.
+std::string error_color(double share) {
+  constexpr std::array<std::array<double, 3>, 6> kStops = {
+      {{13, 8, 135}, {91, 1, 165}, {154, 23, 155}, {203, 70, 121}, {235, 120, 82}, {251, 178, 47}}};
+  const double position = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
+  const auto stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
+  const double part = position - static_cast<double>(stop);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<int>(std::lround((1 - part) * kStops[stop][c] + part * kStops[stop + 1][c]));
+  };
+  return fmt::format("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2));
+}
+
+/// Okabe and Ito 2008, "Color universal design", without black and yellow.
+std::string line_color(std::size_t line) {
+  constexpr std::array<const char*, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                  "#56b4e9", "#e69f00", "#6b4c9a"};
+  return kColors[line % kColors.size()];
+}
+
+}  // namespace cairn
