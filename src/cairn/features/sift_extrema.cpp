@@ -18,7 +18,6 @@ constexpr int kReach = 2;     // pixels on either side: an extremum farther off 
 constexpr double kGreyRange = 255;
 // Of the contrast, at a pixel: between pixels and levels the parabola may reach the whole.
 constexpr double kFirstShare = 0.8;
-constexpr int kStripRows = 64;   // that one thread searches at a time
 constexpr int kRowsAhead = 3;    // that are asked for before their turn
 constexpr int kCacheLine = 16;   // floats
 constexpr int kSecondCache = 2;  // __builtin_prefetch's name for it

@@ -26,7 +26,7 @@ Weights make_weights() {
   for (int i = 0; i < kGradients; ++i) {
     for (int j = 0; j < kGradients; ++j) {
       const double x = (j - (kGradients - 1) / 2.0) * kStep, y = (i - (kGradients - 1) / 2.0) * kStep;
-      weights[static_cast<std::size_t>(i * kOrientationSide + j)] =
+      weights.data()[i * kOrientationSide + j] =
           static_cast<float>(std::exp(-(x * x + y * y) / (2 * kWindow * kWindow)));
     }
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -217,8 +218,12 @@ TEST(SiftOrientation, is_that_of_a_ramp) {
 
 TEST(Sift, keeps_the_strongest_but_leaves_no_part_of_the_image_out) {
   std::vector<Blob> blobs;  // strong ones left, weak ones right
-  for (int i = 0; i < 100; ++i) blobs.push_back({20.0 + 15 * (i % 10), 20.0 + 15 * (i / 10), 3, 100});
-  for (int i = 0; i < 100; ++i) blobs.push_back({220.0 + 15 * (i % 10), 20.0 + 15 * (i / 10), 3, 20});
+  for (int row = 0; row < 10; ++row) {
+    for (int column = 0; column < 10; ++column) {
+      blobs.push_back({20.0 + 15 * column, 20.0 + 15 * row, 3, 100});
+      blobs.push_back({220.0 + 15 * column, 20.0 + 15 * row, 3, 20});
+    }
+  }
   SiftOptions options;
   options.count = 60;
   const Features features = extract(draw(390, 180, blobs), options);

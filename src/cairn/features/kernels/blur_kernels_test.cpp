@@ -25,17 +25,16 @@ TEST_P(BlurKernelsTest, SumRowsIsTheWeightedSumBitForBit) {
   const std::vector<float> weights{0.1F, 0.2F, 0.15F, 0.05F};
   for (const int count : {16, 48, 64, 208}) {
     for (const int shift : {0, 1}) {
-      const std::vector<float> pixels = random_floats(static_cast<std::size_t>(8 * count), 1);
+      const std::vector<float> pixels = random_floats(std::size_t{8} * static_cast<std::size_t>(count), 1);
       std::vector<const float*> rows;
       for (int i = 0; i < 8; ++i) rows.push_back(pixels.data() + i * count);
+      const float* const* centre = rows.data() + 3;
       std::vector<float> out(static_cast<std::size_t>(count), -1);
-      blur_kernels(GetParam())
-          .sum_rows(rows.data() + 3, shift, weights.data(), kPairs, 16 * shift, count, out.data());
+      blur_kernels(GetParam()).sum_rows(centre, shift, weights.data(), kPairs, 16 * shift, count, out.data());
       for (int x = 0; x < count; ++x) {
         float sum = x < 16 * shift ? -1.0F : 0.0F;
         for (int k = 0; k < kPairs && x >= 16 * shift; ++k)
-          sum += weights[static_cast<std::size_t>(k)] * (rows[static_cast<std::size_t>(3 - k)][x] +
-                                                         rows[static_cast<std::size_t>(3 + k + shift)][x]);
+          sum += weights[static_cast<std::size_t>(k)] * (centre[-k][x] + centre[k + shift][x]);
         ASSERT_EQ(out[static_cast<std::size_t>(x)], sum) << count << ' ' << shift << ' ' << x;
       }
     }
@@ -46,7 +45,8 @@ TEST_P(BlurKernelsTest, BlurRowIsTheWeightedSumBitForBit) {
   const std::vector<float> weights{0.3F, 0.2F, 0.1F, 0.05F};
   for (const int radius : {0, 1, 3}) {
     for (const int count : {16, 64, 144}) {
-      const std::vector<float> in = random_floats(static_cast<std::size_t>(count + 2 * kMargin), 2);
+      const std::vector<float> in =
+          random_floats(static_cast<std::size_t>(count) + std::size_t{2} * kMargin, 2);
       std::vector<float> out(static_cast<std::size_t>(count));
       const float* centre = in.data() + kMargin;
       blur_kernels(GetParam()).blur_row(centre, weights.data(), radius, count, out.data());

@@ -14,7 +14,7 @@ struct ExtremaKernels {
   /// With D = the differences of each level and the one before, three in number: columns in [begin, end)
   /// where D in the middle has at least the absolute value `threshold` > 0 and, positive, is not exceeded by
   /// any of its 26 neighbours or, negative, does not exceed any. Ascending; returns how many. Rows are
-  /// readable from begin - 1 to end + 16; `found` has room for end - begin.
+  /// readable for 16 floats beyond on either side; `found` has room for end - begin.
   int (*find)(const GaussianRows& gaussians, int begin, int end, float threshold, int* found);
 };
 

@@ -13,14 +13,15 @@ namespace cairn {
 namespace {
 
 constexpr int kWidth = 400;
+constexpr std::size_t kMargin = 16;
 constexpr float kThreshold = 3;
 
 /// Four levels of three rows of few different values: ties are many.
 struct Levels {
-  explicit Levels(std::uint64_t seed) : pixels(std::size_t{12} * kWidth) {
+  explicit Levels(std::uint64_t seed) : pixels(std::size_t{12} * kWidth + 2 * kMargin) {
     Random random(seed);
     for (float& pixel : pixels) pixel = static_cast<float>(random.index(7));
-    for (std::size_t i = 0; i < 12; ++i) rows.rows[i / 3][i % 3] = pixels.data() + i * kWidth;
+    for (std::size_t i = 0; i < 12; ++i) rows.rows[i / 3][i % 3] = pixels.data() + kMargin + i * kWidth;
   }
   [[nodiscard]] float difference(int level, int row, int x) const {
     return rows.rows[level + 1][row][x] - rows.rows[level][row][x];

@@ -32,25 +32,24 @@ CellWeights random_weights(std::uint64_t seed) {
 
 class PatchKernelsTest : public testing::TestWithParam<InstructionSet> {
  protected:
-  const PatchKernels& kernels = patch_kernels(GetParam());
-  const PatchKernels& plain = patch_kernels(InstructionSet::plain);
+  const PatchKernels& kernels_ = patch_kernels(GetParam());
+  const PatchKernels& plain_ = patch_kernels(InstructionSet::plain);
 };
 
 TEST_P(PatchKernelsTest, SamplesALinearImageExactlyAndItsBorderOutside) {
   constexpr int kWidth = 37, kHeight = 29, kStride = 40, kSide = 16;
   std::vector<float> pixels(std::size_t{kStride} * kHeight);
   for (int v = 0; v < kHeight; ++v)
-    for (int u = 0; u < kWidth; ++u)
-      pixels[static_cast<std::size_t>(v * kStride + u)] = static_cast<float>(2 * u + 3 * v);
+    for (int u = 0; u < kWidth; ++u) pixels.data()[v * kStride + u] = static_cast<float>(2 * u + 3 * v);
   const PatchGrid grid{pixels.data(), kWidth, kHeight, kStride, 14.25F, 20.5F, 1.5F, 0.75F, 7.5F};
   std::array<float, kSide * kSide> samples{};
-  kernels.sample(grid, kSide, samples.data());
+  kernels_.sample(grid, kSide, samples.data());
   for (int i = 0; i < kSide; ++i) {
     for (int j = 0; j < kSide; ++j) {
       const double along = j - 7.5, down = i - 7.5;
       const double x = std::clamp(14.25 + along * 1.5 - down * 0.75, 0.0, kWidth - 1.0);
       const double y = std::clamp(20.5 + along * 0.75 + down * 1.5, 0.0, kHeight - 1.0);
-      ASSERT_NEAR(samples[static_cast<std::size_t>(i * kSide + j)], 2 * x + 3 * y, 1e-3) << i << ' ' << j;
+      ASSERT_NEAR(samples.data()[i * kSide + j], 2 * x + 3 * y, 1e-3) << i << ' ' << j;
     }
   }
 }
@@ -62,8 +61,8 @@ TEST_P(PatchKernelsTest, SamplesTheSameBits) {
     const auto any = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };
     const PatchGrid grid{pixels.data(), 60, 64, 64, any(-9, 70), any(-9, 70), any(-4, 4), any(-4, 4), 7.5F};
     std::array<float, kSamples> samples{}, expected{};
-    kernels.sample(grid, kDescriptorSide, samples.data());
-    plain.sample(grid, kDescriptorSide, expected.data());
+    kernels_.sample(grid, kDescriptorSide, samples.data());
+    plain_.sample(grid, kDescriptorSide, expected.data());
     ASSERT_EQ(samples, expected);
   }
 }
@@ -75,12 +74,12 @@ TEST_P(PatchKernelsTest, OrientationsFallIntoTheirBin) {
     std::array<float, kSamples + 32> samples{};
     for (int i = 0; i < kOrientationSide; ++i)
       for (int j = 0; j < kOrientationSide; ++j)
-        samples[static_cast<std::size_t>(i * kOrientationSide + j)] =
+        samples.data()[i * kOrientationSide + j] =
             static_cast<float>(10 * (j * std::cos(angle) + i * std::sin(angle)));
     std::vector<float> weighted = weights;
-    for (int i = 0; i < kOrientationSide; ++i) weighted[static_cast<std::size_t>(16 * i + 15)] = 0;
+    for (int i = 0; i < kOrientationSide; ++i) weighted.data()[16 * i + 15] = 0;
     std::array<float, kOrientationBins> histogram{};
-    kernels.orientations(samples.data(), weighted.data(), histogram.data());
+    kernels_.orientations(samples.data(), weighted.data(), histogram.data());
     for (int b = 0; b < kOrientationBins; ++b)
       EXPECT_NEAR(histogram[static_cast<std::size_t>(b)], b == bin ? 225 * 20 : 0, 1) << bin << ' ' << b;
   }
@@ -91,8 +90,8 @@ TEST_P(PatchKernelsTest, OrientationsAreTheSameBits) {
     const std::vector<float> samples = random_floats(kSamples + 32, seed),
                              weights = random_floats(kSamples, 99);
     std::array<float, kOrientationBins> histogram{}, expected{};
-    kernels.orientations(samples.data(), weights.data(), histogram.data());
-    plain.orientations(samples.data(), weights.data(), expected.data());
+    kernels_.orientations(samples.data(), weights.data(), histogram.data());
+    plain_.orientations(samples.data(), weights.data(), expected.data());
     ASSERT_EQ(histogram, expected);
   }
 }
@@ -103,8 +102,8 @@ TEST_P(PatchKernelsTest, DescriptorsAreTheSameBytes) {
     const CellWeights weights = random_weights(seed);
     for (const bool root : {false, true}) {
       std::array<std::uint8_t, kDescriptorBytes> descriptor{}, expected{};
-      kernels.describe(samples.data(), weights, root, descriptor.data());
-      plain.describe(samples.data(), weights, root, expected.data());
+      kernels_.describe(samples.data(), weights, root, descriptor.data());
+      plain_.describe(samples.data(), weights, root, expected.data());
       ASSERT_EQ(descriptor, expected);
     }
   }
@@ -115,7 +114,7 @@ TEST_P(PatchKernelsTest, AnEvenPatchIsDescribedByZeros) {
   for (const bool root : {false, true}) {
     std::array<std::uint8_t, kDescriptorBytes> descriptor{};
     descriptor.fill(1);
-    kernels.describe(samples.data(), random_weights(1), root, descriptor.data());
+    kernels_.describe(samples.data(), random_weights(1), root, descriptor.data());
     EXPECT_EQ(descriptor, (std::array<std::uint8_t, kDescriptorBytes>{}));
   }
 }
