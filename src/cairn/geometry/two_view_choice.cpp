@@ -24,24 +24,36 @@ struct Pairs {
   double sigma;
 };
 
-double gric(const Pairs& pairs, const Eigen::Matrix3d& model, ErrorOfPair error, int dimension,
-            int parameters) {
-  constexpr int kDataDimension = 4;
-  const double limit = 2.0 * (kDataDimension - dimension), n = static_cast<double>(pairs.a.size());
+/// A model in GRIC's terms: dimension d of what it leaves free for a pair, number k of parameters.
+struct Candidate {
+  const Eigen::Matrix3d* matrix;  ///< may be null
+  ErrorOfPair error;
+  int dimension, parameters;
+
+  [[nodiscard]] double limit() const { return 2.0 * (4 - dimension); }
+  [[nodiscard]] double squared_error(const Pairs& pairs, std::size_t i) const {
+    return error(*matrix, pairs.a[i], pairs.b[i]) / (pairs.sigma * pairs.sigma);
+  }
+  [[nodiscard]] bool explains(const Pairs& pairs, std::size_t i) const {
+    return matrix != nullptr && squared_error(pairs, i) < limit();
+  }
+};
+
+double gric(const Pairs& pairs, std::span<const std::int32_t> explained, const Candidate& model) {
+  if (model.matrix == nullptr) return std::numeric_limits<double>::infinity();
+  const auto n = static_cast<double>(explained.size());
   double sum = 0;
-  for (std::size_t i = 0; i < pairs.a.size(); ++i)
-    sum += std::min(limit, error(model, pairs.a[i], pairs.b[i]) / (pairs.sigma * pairs.sigma));
-  return sum + n * dimension * std::log(kDataDimension) + parameters * std::log(kDataDimension * n);
+  for (const std::int32_t i : explained)
+    sum += std::min(model.limit(), model.squared_error(pairs, static_cast<std::size_t>(i)));
+  return sum + n * model.dimension * std::log(4) + model.parameters * std::log(4 * n);
 }
 
-/// Those that the homography explains within GRIC's limit: what a rotation has to explain.
-std::vector<std::int32_t> inliers_of(const Pairs& pairs, const Eigen::Matrix3d& H) {
-  constexpr double kLimit = 4;
-  std::vector<std::int32_t> inliers;
+std::vector<std::int32_t> explained_by(const Pairs& pairs, std::span<const Candidate> models) {
+  std::vector<std::int32_t> explained;
   for (std::size_t i = 0; i < pairs.a.size(); ++i)
-    if (homography_sampson_error(H, pairs.a[i], pairs.b[i]) < kLimit * pairs.sigma * pairs.sigma)
-      inliers.push_back(static_cast<std::int32_t>(i));
-  return inliers;
+    if (std::any_of(models.begin(), models.end(), [&](const Candidate& m) { return m.explains(pairs, i); }))
+      explained.push_back(static_cast<std::int32_t>(i));
+  return explained;
 }
 
 }  // namespace
@@ -75,14 +87,18 @@ ModelChoice choose_model(Points a, Points b, double sigma, const Eigen::Matrix3d
                          const Eigen::Matrix3d* homography) {
   require(a.size() == b.size() && sigma > 0, "points of two views correspond by position");
   const Pairs pairs{a, b, sigma};
-  ModelChoice choice;
-  choice.gric.fill(std::numeric_limits<double>::infinity());
-  if (essential != nullptr) choice.gric[0] = gric(pairs, *essential, sampson_error, 3, 5);
+  std::array<Candidate, 3> models{Candidate{essential, sampson_error, 3, 5},
+                                  Candidate{homography, homography_sampson_error, 2, 8},
+                                  Candidate{nullptr, homography_sampson_error, 2, 3}};
+  Eigen::Matrix3d turn;
   if (homography != nullptr) {
-    choice.gric[1] = gric(pairs, *homography, homography_sampson_error, 2, 8);
-    const Eigen::Matrix3d turn = fit_rotation(a, b, inliers_of(pairs, *homography)).toRotationMatrix();
-    choice.gric[2] = gric(pairs, turn, homography_sampson_error, 2, 3);
+    turn = fit_rotation(a, b, explained_by(pairs, std::span(models).subspan(1, 1))).toRotationMatrix();
+    models[2].matrix = &turn;
   }
+  const std::vector<std::int32_t> explained = explained_by(pairs, models);
+  ModelChoice choice;
+  choice.pairs = explained.size();
+  for (std::size_t i = 0; i < models.size(); ++i) choice.gric[i] = gric(pairs, explained, models[i]);
   const auto least = std::min_element(choice.gric.begin(), choice.gric.end());
   choice.model = static_cast<TwoViewModel>(least - choice.gric.begin());
   return choice;

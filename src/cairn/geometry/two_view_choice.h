@@ -24,10 +24,13 @@ enum class TwoViewModel {
 ///
 ///     sum_i min(e_i^2 / sigma^2, 2 (4 - d)) + n d log 4 + k log(4 n)
 ///
-/// over all n pairs, e_i the Sampson error, d the dimension of what the model leaves free for a pair in R^4
-/// (3 for an essential matrix, 2 for a homography and a rotation), k its parameters (5, 8, 3).
+/// over the n pairs that one of them explains within its 2 (4 - d): other pairs are no evidence for any, but
+/// would cost the models of lower dimension more. e_i is the Sampson error, d the dimension of what the model
+/// leaves free for a pair in R^4 (3 for an essential matrix, 2 for a homography and a rotation), k its
+/// parameters (5, 8, 3).
 struct ModelChoice {
   TwoViewModel model = TwoViewModel::essential;
+  std::size_t pairs = 0;         ///< that one of the models explains
   std::array<double, 3> gric{};  ///< by TwoViewModel; infinite for a model that was not found
 };
 
