@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/pnp_ransac.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "cairn/core/error.h"
@@ -83,19 +81,12 @@ struct PnpProblem {
   }
 };
 
-bool usable(const Observation& seen) {
-  return std::isfinite(seen.u) && std::isfinite(seen.v) && seen.sigma_px > 0;
-}
-
 }  // namespace
 
 PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                            std::span<const Observation> seen, const RansacOptions& options) {
   require(points_in_world.size() == seen.size(), "each point has one observation");
-  require(std::all_of(seen.begin(), seen.end(), usable) &&
-              std::all_of(points_in_world.begin(), points_in_world.end(),
-                          [](const Eigen::Vector3d& point) { return point.allFinite(); }),
-          "points and pixels are finite");
+  require_observations(points_in_world, seen);
   const PnpProblem problem{rig, points_in_world, seen};
   const RansacResult<CameraPose> found = Ransac(problem, options).run();
   return {found, {Eigen::Quaterniond(found.model.rotation), found.model.translation}};

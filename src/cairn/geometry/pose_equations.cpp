@@ -2,8 +2,27 @@
 #include "cairn/geometry/pose_equations.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/core/error.h"
 
 namespace cairn {
+namespace {
+
+bool usable(const Observation& seen) {
+  return std::isfinite(seen.u) && std::isfinite(seen.v) && seen.sigma_px > 0;
+}
+
+}  // namespace
+
+void require_observations(std::span<const Eigen::Vector3d> points_in_world,
+                          std::span<const Observation> seen) {
+  require(std::all_of(seen.begin(), seen.end(), usable), "pixels are finite");
+  require(std::all_of(points_in_world.begin(), points_in_world.end(),
+                      [](const Eigen::Vector3d& point) { return point.allFinite(); }),
+          "points are finite");
+}
 
 Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig, const Eigen::Vector3d& point_in_camera) {
   const double inverse_depth = 1.0 / point_in_camera.z();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "cairn/geometry/rig.h"
 
@@ -13,6 +14,10 @@ namespace cairn {
 /// 7.1.8 and 7.3).
 [[nodiscard]] Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig,
                                                                const Eigen::Vector3d& point_in_camera);
+
+/// PreconditionError unless points and pixels are finite and sigmas above 0.
+void require_observations(std::span<const Eigen::Vector3d> points_in_world,
+                          std::span<const Observation> seen);
 
 /// Normal equations of one camera's pose: J^T W J and J^T W e, summed over observations.
 struct PoseEquations {

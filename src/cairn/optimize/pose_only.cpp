@@ -5,6 +5,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/pose_equations.h"
+#include "cairn/optimize/robust_kernel.h"
 
 namespace cairn {
 namespace {
@@ -15,11 +16,6 @@ struct Problem {
   std::span<const Observation> seen;
 };
 
-double huber_weight(double squared_error, double width) {
-  const double error = std::sqrt(squared_error);
-  return error <= width ? 1.0 : width / error;
-}
-
 PoseEquations build(const Problem& problem, const std::vector<std::int32_t>& used,
                     const Rigid3& camera_from_world, double huber) {
   PoseEquations equations;
@@ -28,7 +24,7 @@ PoseEquations build(const Problem& problem, const std::vector<std::int32_t>& use
     const Eigen::Vector3d point = camera_from_world * problem.points[i];
     const double squared = squared_error(problem.rig, point, problem.seen[i]);
     if (std::isfinite(squared))
-      equations.add(problem.rig, point, problem.seen[i], huber_weight(squared, huber));
+      equations.add(problem.rig, point, problem.seen[i], kernel_weight(RobustKernel::huber, huber, squared));
   }
   return equations;
 }
