@@ -97,7 +97,7 @@ Rigid3 pose_by_peer(const Camera& camera, const GrayImage& first, const GrayImag
     seen.push_back(observation);
   }
   const PnpResult pose = solve_pnp_ransac(rig, points, seen, {});
-  require(pose.found, "the two views have a pose");
+  require(pose.found(), "the two views have a pose");
   return refine_pose(rig, points, seen, pose.camera_from_world).camera_from_world;
 }
 

@@ -15,5 +15,7 @@ int run_features(int argc, char** argv);
 int run_match(int argc, char** argv);
 int run_evaluate(int argc, char** argv);
 int run_align(int argc, char** argv);
+int run_two_view(int argc, char** argv);
+int run_pnp(int argc, char** argv);
 
 }  // namespace cairn::app

@@ -31,6 +31,8 @@ constexpr Command kCommands[] = {
     {"graph", "optimise a pose graph (.g2o)", cairn::app::run_graph},
     {"features", "find and describe features of images: counts, times, pictures", cairn::app::run_features},
     {"match", "find the features of one image in another", cairn::app::run_match},
+    {"two-view", "motion between two images and the points that both see", cairn::app::run_two_view},
+    {"pnp", "pose of a camera from points and their pixels", cairn::app::run_pnp},
     {"evaluate", "compare trajectories with their truth: ATE, RPE, drift", cairn::app::run_evaluate},
     {"align", "the transform that moves a trajectory onto another", cairn::app::run_align},
 };

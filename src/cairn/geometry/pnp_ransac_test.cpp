@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cairn/core/error.h"
 #include "cairn/core/random.h"
 
 namespace cairn {
@@ -42,7 +43,7 @@ TEST(PnpRansac, finds_the_pose_among_outliers) {
   for (const int outliers : {0, 50, 100, 140}) {
     const Scene scene = make_scene(200, outliers, 30 + static_cast<std::uint64_t>(outliers));
     const PnpResult result = solve_pnp_ransac(kRig, scene.points, scene.seen, {});
-    ASSERT_TRUE(result.found) << outliers;
+    ASSERT_TRUE(result.found()) << outliers;
     EXPECT_LT(motion_norm(result.camera_from_world * scene.camera_from_world.inverse()), 0.05) << outliers;
     int wrong = 0;
     for (const std::int32_t i : result.inliers) wrong += i < outliers ? 1 : 0;
@@ -56,15 +57,36 @@ TEST(PnpRansac, stops_early_where_all_agree) {
   EXPECT_LT(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).iterations, 50);
 }
 
-TEST(PnpRansac, has_few_inliers_where_nothing_fits) {
-  const Scene scene = make_scene(200, 200, 41);
-  EXPECT_LT(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).inliers.size(), 12U);
+TEST(PnpRansac, says_so_where_nothing_fits) {
+  for (const int count : {4, 5, 8, 20, 200}) {
+    const Scene scene = make_scene(count, count, 41);
+    const PnpResult result = solve_pnp_ransac(kRig, scene.points, scene.seen, {});
+    EXPECT_FALSE(result.found()) << count;
+    EXPECT_LT(result.inliers.size(), 12U);
+  }
+}
+
+TEST(PnpRansac, says_so_where_all_points_lie_on_a_line) {
+  Scene scene = make_scene(20, 0, 45);
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector3d in_camera(0.05 * static_cast<double>(i) - 0.5, 0.1, 2);
+    const Eigen::Vector3d exact = kRig.project(in_camera);
+    scene.points[i] = scene.camera_from_world.inverse() * in_camera;
+    scene.seen[i] = {exact.x(), exact.y()};
+  }
+  EXPECT_EQ(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).status, RansacStatus::degenerate);
+}
+
+TEST(PnpRansac, refuses_numbers_that_are_not_finite) {
+  Scene scene = make_scene(20, 0, 46);
+  scene.seen[3].u = std::nan("");
+  EXPECT_THROW((void)solve_pnp_ransac(kRig, scene.points, scene.seen, {}), PreconditionError);
 }
 
 TEST(PnpRansac, does_not_begin_with_fewer_than_four_points) {
   for (const int count : {0, 1, 3}) {
     const Scene scene = make_scene(count, 0, 42);
-    EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found);
+    EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found());
   }
 }
 
@@ -72,7 +94,7 @@ TEST(PnpRansac, finds_nothing_where_all_points_are_one) {
   Scene scene = make_scene(20, 0, 43);
   for (auto& point : scene.points) point = scene.points[0];
   for (auto& seen : scene.seen) seen = scene.seen[0];
-  EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found);
+  EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found());
 }
 
 TEST(PnpRansac, repeats_itself_from_the_seed) {

@@ -7,16 +7,9 @@
 
 #include "cairn/core/progress.h"
 #include "cairn/map/pose_graph.h"
+#include "cairn/optimize/robust_kernel.h"
 
 namespace cairn {
-
-/// What an edge flagged robust costs, with s = chi2 of the edge and c = PoseGraphOptions::robust_scale.
-enum class RobustKernel {
-  none,           ///< s
-  huber,          ///< s up to c^2, then 2 c sqrt(s) - c^2: outliers pull with constant force
-  cauchy,         ///< c^2 log(1 + s / c^2): their force falls as 1/sqrt(s)
-  geman_mcclure,  ///< c^2 s / (c^2 + s): bounded, as dynamic covariance scaling (Agarwal et al. 2013)
-};
 
 /// Where the optimiser starts.
 enum class PoseGraphStart {
@@ -26,7 +19,7 @@ enum class PoseGraphStart {
 };
 
 struct PoseGraphOptions {
-  RobustKernel kernel = RobustKernel::none;
+  RobustKernel kernel = RobustKernel::none;  ///< of edges flagged robust
   /// Standard deviations of a whole edge at which the kernel sets in; 3.5 lets 95 % of good edges through
   /// (the square root of chi-square's 95 % quantile at 6 degrees of freedom, 12.6).
   double robust_scale = 3.5;

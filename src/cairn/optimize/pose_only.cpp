@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/optimize/pose_only.h"
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/pose_equations.h"
+#include "cairn/optimize/robust_kernel.h"
 
 namespace cairn {
 namespace {
@@ -15,39 +16,16 @@ struct Problem {
   std::span<const Observation> seen;
 };
 
-struct NormalEquations {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-};
-
-double huber_weight(double squared_error, double width) {
-  const double error = std::sqrt(squared_error);
-  return error <= width ? 1.0 : width / error;
-}
-
-void add_observation(const Problem& problem, std::size_t i, const Rigid3& camera_from_world, double huber,
-                     NormalEquations& equations) {
-  const Observation& seen = problem.seen[i];
-  const Eigen::Vector3d point = camera_from_world * problem.points[i];
-  const double squared = squared_error(problem.rig, point, seen);
-  if (!std::isfinite(squared)) return;
-  const double weight = huber_weight(squared, huber);
-  const Eigen::Vector3d projected = problem.rig.project(point);
-  const Eigen::Vector3d error(projected.x() - seen.u, projected.y() - seen.v,
-                              seen.has_disparity() ? projected.z() - seen.d : 0.0);
-  const double pixel_weight = weight / (seen.sigma_px * seen.sigma_px);
-  const double disparity_weight = seen.has_disparity() ? weight / (seen.sigma_d_px * seen.sigma_d_px) : 0.0;
-  const Eigen::Vector3d weights(pixel_weight, pixel_weight, disparity_weight);
-  const Eigen::Matrix<double, 3, 6> jacobian = observation_jacobian(problem.rig, point);
-  equations.hessian.noalias() += jacobian.transpose() * weights.asDiagonal() * jacobian;
-  equations.gradient.noalias() += jacobian.transpose() * weights.cwiseProduct(error);
-}
-
-NormalEquations build(const Problem& problem, const std::vector<std::int32_t>& used,
-                      const Rigid3& camera_from_world, double huber) {
-  NormalEquations equations;
-  for (const std::int32_t i : used)
-    add_observation(problem, static_cast<std::size_t>(i), camera_from_world, huber, equations);
+PoseEquations build(const Problem& problem, const std::vector<std::int32_t>& used,
+                    const Rigid3& camera_from_world, double huber) {
+  PoseEquations equations;
+  for (const std::int32_t index : used) {
+    const auto i = static_cast<std::size_t>(index);
+    const Eigen::Vector3d point = camera_from_world * problem.points[i];
+    const double squared = squared_error(problem.rig, point, problem.seen[i]);
+    if (std::isfinite(squared))
+      equations.add(problem.rig, point, problem.seen[i], kernel_weight(RobustKernel::huber, huber, squared));
+  }
   return equations;
 }
 
@@ -55,16 +33,10 @@ NormalEquations build(const Problem& problem, const std::vector<std::int32_t>& u
 bool minimise(const Problem& problem, const std::vector<std::int32_t>& used, const PoseOnlyOptions& options,
               Rigid3& camera_from_world) {
   for (int iteration = 0; iteration < options.iterations_per_round; ++iteration) {
-    const NormalEquations equations = build(problem, used, camera_from_world, options.huber_px);
-    const Eigen::LDLT<Matrix6d> factor(equations.hessian);
-    constexpr double kSmallestPivot = 1e-9;
-    const auto pivots = factor.vectorD();
-    if (factor.info() != Eigen::Success || pivots.minCoeff() <= kSmallestPivot * pivots.maxCoeff())
-      return false;
-    const Vector6d step = -factor.solve(equations.gradient);
-    if (!step.allFinite()) return false;
-    camera_from_world = perturb_left(step, camera_from_world);
-    if (step.norm() < options.converged_step) break;
+    const auto step = build(problem, used, camera_from_world, options.huber_px).solve();
+    if (!step) return false;
+    camera_from_world = perturb_left(*step, camera_from_world);
+    if (step->norm() < options.converged_step) break;
   }
   return true;
 }
@@ -96,17 +68,6 @@ void fill_statistics(const Problem& problem, PoseOnlyResult& result) {
 }
 
 }  // namespace
-
-Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig, const Eigen::Vector3d& point_in_camera) {
-  const double inverse_depth = 1.0 / point_in_camera.z();
-  const double x = point_in_camera.x() * inverse_depth, y = point_in_camera.y() * inverse_depth;
-  Eigen::Matrix3d by_point;  // d(u, v, d) / d(x, y, z)
-  by_point << rig.fx, 0, -rig.fx * x, 0, rig.fy, -rig.fy * y, 0, 0, -rig.fx * rig.baseline * inverse_depth;
-  by_point *= inverse_depth;
-  Eigen::Matrix<double, 3, 6> jacobian;
-  jacobian << -by_point * skew(point_in_camera), by_point;  // exp(w) p + v = p - [p]x w + v
-  return jacobian;
-}
 
 PoseOnlyResult refine_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                            std::span<const Observation> seen, const Rigid3& initial_camera_from_world,

@@ -37,9 +37,4 @@ struct PoseOnlyResult {
                                          const Rigid3& initial_camera_from_world,
                                          const PoseOnlyOptions& options = {});
 
-/// The residual's derivative by the left perturbation: rows du, dv, dd; columns rotation, translation.
-/// Unweighted.
-[[nodiscard]] Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig,
-                                                               const Eigen::Vector3d& point_in_camera);
-
 }  // namespace cairn

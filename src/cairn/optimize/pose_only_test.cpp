@@ -56,20 +56,6 @@ Vector6d error_of(const Rigid3& estimate, const Rigid3& truth) {
   return xi;
 }
 
-TEST(PoseOnly, jacobian_agrees_with_finite_differences) {
-  const Eigen::Vector3d point(0.4, -0.7, 2.3);
-  const auto jacobian = observation_jacobian(kRig, point);
-  constexpr double kStep = 1e-6;
-  for (int i = 0; i < 6; ++i) {
-    Vector6d xi = Vector6d::Zero();
-    xi[i] = kStep;
-    const Eigen::Vector3d numeric =
-        (kRig.project(perturb_left(xi, {}) * point) - kRig.project(perturb_left(-xi, {}) * point)) /
-        (2 * kStep);
-    EXPECT_LT((numeric - jacobian.col(i)).norm(), 1e-5 * (1 + numeric.norm())) << "column " << i;
-  }
-}
-
 TEST(PoseOnly, reaches_the_truth_without_noise) {
   Scene scene = make_scene(50, 1);
   for (std::size_t i = 0; i < scene.points.size(); ++i) {

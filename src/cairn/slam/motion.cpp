@@ -67,7 +67,7 @@ Motion estimate_motion(const Rig& rig, const ObservedFrame& reference, const Obs
   RansacOptions ransac;
   ransac.seed = seed_of(options, reference, current);
   const PnpResult rough = solve_pnp_ransac(rig, pairs.points_in_reference, pairs.seen_in_current, ransac);
-  if (!rough.found) return motion;
+  if (!rough.found()) return motion;
   const PoseOnlyResult refined =
       refine_pose(rig, pairs.points_in_reference, pairs.seen_in_current, rough.camera_from_world);
   motion.inliers = static_cast<int>(refined.inliers.size());

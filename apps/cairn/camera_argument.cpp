@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "camera_argument.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+
+namespace cairn::app {
+namespace {
+
+Calibration pinhole_of(const std::string& text) {
+  const std::vector<double> numbers = parse_number_list(text, 4, "--camera", "fx,fy,cx,cy");
+  if (!(numbers[0] > 0 && numbers[1] > 0)) {
+    throw InputError(
+        {"--camera", 0, "focal lengths above 0", fmt::format("'{}'", text), "Give fx,fy,cx,cy in pixels."});
+  }
+  Calibration calibration;
+  calibration.camera.fx = numbers[0];
+  calibration.camera.fy = numbers[1];
+  calibration.camera.cx = numbers[2];
+  calibration.camera.cy = numbers[3];
+  return calibration;
+}
+
+}  // namespace
+
+CLI::Option* add_camera_option(CLI::App& app, std::string& camera) {
+  return app
+      .add_option("--camera", camera,
+                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
+      ->type_name("FILE|NAME|fx,fy,cx,cy");
+}
+
+Calibration read_camera_argument(const std::string& camera) {
+  if (const auto known = known_calibration(camera)) return *known;
+  if (std::filesystem::exists(camera)) return read_calibration(camera);
+  if (camera.find(',') != std::string::npos) return pinhole_of(camera);
+  throw InputError({"--camera", 0, "a camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or fx,fy,cx,cy",
+                    fmt::format("'{}', no such file", camera), "Check the path."});
+}
+
+std::vector<double> parse_number_list(const std::string& text, std::size_t count, const std::string& option,
+                                      const std::string& layout) {
+  std::string spaced = text;
+  std::replace(spaced.begin(), spaced.end(), ',', ' ');
+  std::vector<double> numbers;
+  bool all_numbers = true;
+  for (std::size_t begin = spaced.find_first_not_of(' '); begin != std::string::npos;) {
+    const std::size_t end = std::min(spaced.find(' ', begin), spaced.size());
+    double value = 0;
+    all_numbers = parse_number(std::string_view(spaced).substr(begin, end - begin), value) && all_numbers;
+    numbers.push_back(value);
+    begin = spaced.find_first_not_of(' ', end);
+  }
+  if (!all_numbers || numbers.size() != count) {
+    throw InputError({option, 0, fmt::format("{} numbers, {}", count, layout), fmt::format("'{}'", text),
+                      "Separate them by commas, without blanks."});
+  }
+  return numbers;
+}
+
+}  // namespace cairn::app

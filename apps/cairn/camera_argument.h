@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cairn/sequence/calibration.h"
+#include "common.h"
+
+namespace cairn::app {
+
+/// --camera FILE|NAME|fx,fy,cx,cy for commands that work on single images or lists of points.
+CLI::Option* add_camera_option(CLI::App& app, std::string& camera);
+
+/// What that option names; of four numbers a pinhole camera without a size. InputError for anything else.
+[[nodiscard]] Calibration read_camera_argument(const std::string& camera);
+
+/// Numbers separated by commas or blanks. InputError that names `option` unless there are `count`, all
+/// finite.
+[[nodiscard]] std::vector<double> parse_number_list(const std::string& text, std::size_t count,
+                                                    const std::string& option, const std::string& layout);
+
+}  // namespace cairn::app
