@@ -78,9 +78,7 @@ class OpencvExtractor : public Extractor {
   }
 
  private:
-  [[nodiscard]] bool limits_itself() const {
-    return detector_ == "OPENCV_ORB" || detector_ == "OPENCV_SIFT";
-  }
+  [[nodiscard]] bool limits_itself() const { return detector_ == "OPENCV_ORB" || detector_ == "OPENCV_SIFT"; }
 
   std::string detector_, descriptor_;
   int count_;
