@@ -45,7 +45,7 @@ packages_test=(
   clang-format-14  # tests/check_format.py
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
-packages_bench=(libbenchmark-dev)
+packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
 packages_tidy=(clang-tidy-14 python3)
 packages_format=(clang-format-14 python3)
 

@@ -5,6 +5,7 @@
 
 #include "comparison.h"
 #include "features.h"
+#include "geometry.h"
 
 int main(int argc, char** argv) {
   try {
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
     cairn::bench::add_orb(comparisons, inputs);
     cairn::bench::add_matching(comparisons, inputs);
     cairn::bench::add_sift(comparisons, inputs);
+    cairn::bench::add_geometry(comparisons);
     return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "cairn_bench: {}\n", error.what());

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "cairn/core/file.h"
@@ -10,15 +9,12 @@
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "commands.h"
 #include "common.h"
+#include "named_values.h"
 
 namespace cairn::app {
 namespace {
 
-const std::map<std::string, RobustKernel> kKernels = {{"none", RobustKernel::none},
-                                                      {"huber", RobustKernel::huber},
-                                                      {"cauchy", RobustKernel::cauchy},
-                                                      {"geman-mcclure", RobustKernel::geman_mcclure}};
-const std::map<std::string, PoseGraphStart> kStarts = {
+const NamedValues<PoseGraphStart> kStarts = {
     {"given", PoseGraphStart::given}, {"chordal", PoseGraphStart::chordal}, {"best", PoseGraphStart::best}};
 
 struct GraphArguments {
@@ -26,13 +22,6 @@ struct GraphArguments {
   std::string input, output, robust = "none", start = "best";
   PoseGraphOptions options;
 };
-
-template <class Value>
-std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
-  std::vector<std::string> names;
-  for (const auto& entry : values) names.push_back(entry.first);
-  return names;
-}
 
 void declare(CLI::App& app, GraphArguments& arguments) {
   app.add_option("input", arguments.input, "3D pose graph, g2o text format")->type_name("IN.g2o")->required();

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -13,16 +12,13 @@
 #include "cairn/optimize/pose_fit.h"
 #include "camera_argument.h"
 #include "commands.h"
+#include "named_values.h"
 
 namespace cairn::app {
 namespace {
 
-const std::map<std::string, RobustKernel> kKernels = {{"none", RobustKernel::none},
-                                                      {"huber", RobustKernel::huber},
-                                                      {"cauchy", RobustKernel::cauchy},
-                                                      {"geman-mcclure", RobustKernel::geman_mcclure}};
-const std::map<std::string, PoseFitMethod> kMethods = {{"lm", PoseFitMethod::levenberg_marquardt},
-                                                       {"gauss-newton", PoseFitMethod::gauss_newton}};
+const NamedValues<PoseFitMethod> kMethods = {{"lm", PoseFitMethod::levenberg_marquardt},
+                                             {"gauss-newton", PoseFitMethod::gauss_newton}};
 
 struct PnpArguments {
   CommonOptions common;
@@ -35,12 +31,12 @@ struct PnpArguments {
 
 void declare_fit(CLI::App& app, PnpArguments& arguments) {
   app.add_option("--method", arguments.method, "Levenberg-Marquardt or plain Gauss-Newton")
-      ->check(CLI::IsMember({"lm", "gauss-newton"}))
+      ->check(CLI::IsMember(names_of(kMethods)))
       ->type_name("METHOD")
       ->capture_default_str();
   app.add_option("--kernel", arguments.kernel,
                  "what large residuals cost: none, huber, cauchy or geman-mcclure, from weak to strong")
-      ->check(CLI::IsMember({"none", "huber", "cauchy", "geman-mcclure"}))
+      ->check(CLI::IsMember(names_of(kKernels)))
       ->type_name("KERNEL")
       ->capture_default_str();
   app.add_option("--kernel-scale", arguments.fit.kernel_scale,
@@ -208,7 +204,7 @@ void print_report(const PnpArguments& arguments, const PnpReport& report) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   fmt::print("std rotation  {:.3g} {:.3g} {:.3g} deg\n", kDegrees * deviation[0], kDegrees * deviation[1],
              kDegrees * deviation[2]);
-  fmt::print("std position  {:.3g} {:.3g} {:.3g} m\n", deviation[3], deviation[4], deviation[5]);
+  fmt::print("std move      {:.3g} {:.3g} {:.3g} m\n", deviation[3], deviation[4], deviation[5]);
   fmt::print("variance      {:.4g} times what sigma {} px says; multiply the stds by its root\n",
              fit.variance_factor, arguments.sigma_px);
 }

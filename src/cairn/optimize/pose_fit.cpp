@@ -21,7 +21,7 @@ class Fit {
   [[nodiscard]] PoseFit run(const Rigid3& start) {
     result_.camera_from_world = start;
     result_.cost = cost(start);
-    result_.trace.push_back({result_.cost, 0, lambda_, true});
+    result_.trace.push_back({result_.cost, 0, 0, true});
     result_.status = PoseFitStatus::not_converged;
     if (!std::isfinite(result_.cost)) result_.status = PoseFitStatus::behind_camera;
     while (result_.status == PoseFitStatus::not_converged && result_.iterations() < options_.max_iterations)

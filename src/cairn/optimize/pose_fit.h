@@ -26,7 +26,7 @@ struct PoseFitOptions {
 struct PoseFitIteration {
   double cost = 0;    ///< half the sum of rho after the step
   double step = 0;    ///< length of the perturbation, 0 for the start
-  double lambda = 0;  ///< damping of Levenberg-Marquardt
+  double lambda = 0;  ///< damping of the step; 0 for the start and Gauss-Newton
   bool accepted = true;
 };
 
