@@ -103,8 +103,7 @@ Rigid3 pose_by_peer(const Camera& camera, const GrayImage& first, const GrayImag
 
 DepthAt stereo_depth(const Sequence& sequence, const Frame& frame) {
   const double fx_baseline = sequence.calibration.camera.fx * sequence.calibration.baseline.value();
-  const GrayImage right = read_gray(sequence.frames[static_cast<std::size_t>(frame.id.value)].right);
-  return [left = frame.gray, right, fx_baseline](const Pixel& pixel) {
+  return [left = frame.gray, right = frame.right, fx_baseline](const Pixel& pixel) {
     const double disparity = block_disparity(left, right, pixel);
     return disparity > 0 ? fx_baseline / disparity : 0;
   };

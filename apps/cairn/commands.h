@@ -7,6 +7,7 @@ namespace cairn::app {
 /// Returns the exit code: 0 done, 1 ran but found no answer, 2 usage. InputError is caught in main.
 int run_simulate(int argc, char** argv);
 int run_info(int argc, char** argv);
+int run_rectify(int argc, char** argv);
 int run_slam(int argc, char** argv);
 int run_cloud(int argc, char** argv);
 int run_octree(int argc, char** argv);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
 
 #include "commands.h"
 #include "common.h"
@@ -32,8 +34,33 @@ double path_length_m(const Trajectory& trajectory) {
 }
 
 std::string describe(const Camera& camera) {
-  return fmt::format("{} {}x{}, fx {} fy {} cx {} cy {} px", to_string(camera.model), camera.width,
-                     camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
+  return fmt::format("{} {}x{}, fx {:.7g} fy {:.7g} cx {:.7g} cy {:.7g} px", to_string(camera.model),
+                     camera.width, camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+double angle_deg(const Eigen::Quaterniond& rotation) {
+  return rotation_angle(rotation) * 180.0 / std::numbers::pi;
+}
+
+void print_stereo(const Calibration& calibration) {
+  if (!calibration.baseline) return;
+  fmt::print("stereo       baseline {:.6g} m\n", *calibration.baseline);
+  if (!calibration.raw_stereo) return;
+  const auto& [pair, rectification] = *calibration.raw_stereo;
+  fmt::print("raw left     {}\n", describe(pair.left));
+  fmt::print("raw right    {}\n", describe(pair.right));
+  fmt::print("             rectified on load, left turned by {:.2f} degrees, right by {:.2f}\n",
+             angle_deg(rectification.rectified_from_left), angle_deg(rectification.rectified_from_right));
+}
+
+void print_association(const SequenceReport& report) {
+  if (report.associated_by.empty() || report.color_images == 0) return;
+  const bool is_stereo = report.right_images > 0;
+  fmt::print("association  {} of {} {} images have a {} image ({:.1f} %), largest gap {:.1f} ms (by {})\n",
+             report.associated, report.color_images, is_stereo ? "left" : "colour",
+             is_stereo ? "right" : "depth",
+             100.0 * static_cast<double>(report.associated) / static_cast<double>(report.color_images),
+             1e3 * report.max_stamp_gap_s, report.associated_by);
 }
 
 void print_depth(const DepthCalibration& depth) {
@@ -43,22 +70,14 @@ void print_depth(const DepthCalibration& depth) {
 }
 
 void print_text(const Sequence& sequence) {
-  const SequenceReport& report = sequence.report;
   fmt::print("sequence     {}\n", sequence.folder.string());
   fmt::print("format       {}\n", sequence.format);
   fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second\n", sequence.frames.size(),
              duration_s(sequence), rate_hz(sequence));
-  if (report.depth_images > 0 && !report.associated_by.empty()) {
-    fmt::print("association  {} of {} colour images have a depth image ({:.1f} %), largest gap {:.1f} ms{}\n",
-               report.associated, report.color_images,
-               100.0 * static_cast<double>(report.associated) / static_cast<double>(report.color_images),
-               1e3 * report.max_stamp_gap_s,
-               report.associated_by.empty() ? "" : fmt::format(" (by {})", report.associated_by));
-  }
+  print_association(sequence.report);
   fmt::print("camera       {}\n", describe(sequence.calibration.camera));
   fmt::print("             from {}\n", sequence.calibration_source);
-  if (sequence.calibration.baseline)
-    fmt::print("stereo       baseline {:.6g} m\n", *sequence.calibration.baseline);
+  print_stereo(sequence.calibration);
   if (sequence.calibration.depth) print_depth(*sequence.calibration.depth);
   if (sequence.truth) {
     fmt::print("truth        {} poses, path {:.3f} m\n", sequence.truth->size(),
@@ -68,8 +87,31 @@ void print_text(const Sequence& sequence) {
   }
 }
 
+nlohmann::ordered_json to_json(const Camera& camera) {
+  return {{"model", to_string(camera.model)},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion", camera.distortion}};
+}
+
+nlohmann::ordered_json to_json(const RawStereo& raw) {
+  const auto quaternion = [](const Eigen::Quaterniond& q) { return std::vector{q.x(), q.y(), q.z(), q.w()}; };
+  const Rigid3& left_from_right = raw.pair.left_from_right;
+  const Eigen::Vector3d& t = left_from_right.translation;
+  return {
+      {"left", to_json(raw.pair.left)},
+      {"right", to_json(raw.pair.right)},
+      {"left_from_right",
+       {{"translation", {t.x(), t.y(), t.z()}}, {"quaternion_xyzw", quaternion(left_from_right.rotation)}}},
+      {"rectified_from_left_xyzw", quaternion(raw.rectification.rectified_from_left)},
+      {"rectified_from_right_xyzw", quaternion(raw.rectification.rectified_from_right)}};
+}
+
 void print_json(const Sequence& sequence) {
-  const Camera& camera = sequence.calibration.camera;
   nlohmann::ordered_json json;
   json["sequence"] = sequence.folder.string();
   json["format"] = sequence.format;
@@ -78,20 +120,15 @@ void print_json(const Sequence& sequence) {
   json["rate_hz"] = rate_hz(sequence);
   json["color_images"] = sequence.report.color_images;
   json["depth_images"] = sequence.report.depth_images;
+  json["right_images"] = sequence.report.right_images;
   json["associated"] = sequence.report.associated;
   json["max_stamp_gap_s"] = sequence.report.max_stamp_gap_s;
-  json["camera"] = {{"model", to_string(camera.model)},
-                    {"width", camera.width},
-                    {"height", camera.height},
-                    {"fx", camera.fx},
-                    {"fy", camera.fy},
-                    {"cx", camera.cx},
-                    {"cy", camera.cy},
-                    {"distortion", camera.distortion}};
+  json["camera"] = to_json(sequence.calibration.camera);
   json["depth_scale"] =
       sequence.calibration.depth ? nlohmann::ordered_json(sequence.calibration.depth->scale) : nullptr;
   json["baseline_m"] =
       sequence.calibration.baseline ? nlohmann::ordered_json(*sequence.calibration.baseline) : nullptr;
+  json["raw_stereo"] = sequence.calibration.raw_stereo ? to_json(*sequence.calibration.raw_stereo) : nullptr;
   json["truth_poses"] = sequence.truth ? sequence.truth->size() : 0;
   json["truth_path_m"] = sequence.truth ? path_length_m(*sequence.truth) : 0.0;
   fmt::print("{}\n", json.dump(2));
@@ -109,8 +146,8 @@ int run_info(int argc, char** argv) {
   add_common_options(app, common, {.quiet = false});
   if (const auto code = parse(app, argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
-  common.json ? print_json(sequence) : print_text(sequence);
   (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration
+  common.json ? print_json(sequence) : print_text(sequence);
   return 0;
 }
 

@@ -67,6 +67,53 @@ def tum_sequence(name="seq", frames=3):
     return make
 
 
+SENSOR = """\
+%YAML:1.0
+sensor_type: camera
+T_BS:
+  cols: 4
+  data: [1.0, 0.0, 0.0, {x}, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+rate_hz: 20
+resolution: [64, 48]
+camera_model: pinhole
+intrinsics: [50.0, 50.0, 31.5, 23.5] #fu, fv, cu, cv
+distortion_model: radial-tangential
+distortion_coefficients: [-0.2, 0.05, 0.0001, 0.0002]
+"""
+
+RIGHT_CAMERA = """\
+right:
+  camera: {model: kb4, width: 64, height: 48, fx: 50.0, fy: 50.0, cx: 31.5, cy: 23.5, distortion: [0, 0, 0, 0]}
+  left_from_right: {translation: [0.1, 0, 0], quaternion_xyzw: [0, 0, 0, 1]}
+"""
+
+
+def asl_sequence(name="seq", frames=3):
+    """Raw stereo pairs in ASL layout with the truth of the body, 20 a second."""
+    stamps = [1000000000 + 50000000 * i for i in range(frames)]
+    def make(root):
+        for camera, x in (("cam0", "0.0"), ("cam1", "0.1")):
+            place = f"{name}/mav0/{camera}"
+            for stamp in stamps:
+                file(f"{place}/data/{stamp}.png", png_bytes(kind="gray8"))(root)
+            file(f"{place}/data.csv", "#timestamp [ns],filename\n" + "".join(f"{t},{t}.png\n" for t in stamps))(root)
+            file(f"{place}/sensor.yaml", SENSOR.replace("{x}", x))(root)
+        truth = "".join(f"{t},{0.1 * i},0,0,1,0,0,0,0,0,0\n" for i, t in enumerate(stamps))
+        file(f"{name}/mav0/state_groundtruth_estimate0/data.csv", "#timestamp,p,q,v\n" + truth)(root)
+    return make
+
+
+def kitti_sequence(name="seq", frames=2):
+    """Raw stereo pairs in KITTI's folders, both cameras in camera.yaml, without truth."""
+    def make(root):
+        for camera in ("image_0", "image_1"):
+            for i in range(frames):
+                file(f"{name}/{camera}/{i:06}.png", png_bytes(kind="gray8"))(root)
+        file(f"{name}/times.txt", "".join(f"{0.1 * i:.6f}\n" for i in range(frames)))(root)
+        file(f"{name}/camera.yaml", CAMERA.splitlines()[0] + "\n" + RIGHT_CAMERA)(root)
+    return make
+
+
 def trajectory_text(stamps):
     """On a bend, so that it can be aligned."""
     return "".join(f"{t} {0.01 * i:.4f} {0.001 * i * i:.4f} 0 0 0 0 1\n" for i, t in enumerate(stamps))

@@ -18,8 +18,24 @@ namespace {
 constexpr std::string_view kBlanks = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before UTF-8
 
-std::vector<std::string_view> split_fields(std::string_view text) {
-  text = text.substr(0, text.find('#'));
+std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view text) {
+  std::vector<std::string_view> fields;
+  if (trimmed(text).empty()) return fields;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    fields.push_back(trimmed(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return fields;
+}
+
+std::vector<std::string_view> split_at_blanks(std::string_view text) {
   std::vector<std::string_view> fields;
   for (std::size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
@@ -31,14 +47,17 @@ std::vector<std::string_view> split_fields(std::string_view text) {
 
 }  // namespace
 
-TextFile::TextFile(const std::filesystem::path& path) : path_(path), contents_(read_file(path)) {
+TextFile::TextFile(const std::filesystem::path& path, Separator separator)
+    : path_(path), contents_(read_file(path)) {
   std::string_view all = contents_;
   if (all.starts_with(kByteOrderMark)) all.remove_prefix(kByteOrderMark.size());
   int number = 0;
   for (std::size_t begin = 0; begin < all.size();) {
     const std::size_t end = std::min(all.find('\n', begin), all.size());
     ++number;
-    auto fields = split_fields(all.substr(begin, end - begin));
+    std::string_view line = all.substr(begin, end - begin);
+    line = line.substr(0, line.find('#'));
+    auto fields = separator == Separator::commas ? split_at_commas(line) : split_at_blanks(line);
     if (!fields.empty()) lines_.push_back({number, std::move(fields)});
     begin = end + 1;
   }

@@ -9,17 +9,21 @@
 
 namespace cairn {
 
-/// One line of a text file that holds something, split at white space. Views into the TextFile it came from.
+/// One line of a text file that holds something, split into fields. Views into the TextFile it came from.
 struct TextLine {
   int number = 0;  ///< 1-based
   std::vector<std::string_view> fields;
 };
 
+/// What stands between the fields of a line: white space, or commas, where blanks around a field are left
+/// out.
+enum class Separator { blanks, commas };
+
 /// A text file read whole; empty lines and what follows a '#' are left out. Field accessors throw InputError
 /// that names file and line.
 class TextFile {
  public:
-  explicit TextFile(const std::filesystem::path& path);
+  explicit TextFile(const std::filesystem::path& path, Separator separator = Separator::blanks);
 
   [[nodiscard]] const std::vector<TextLine>& lines() const { return lines_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

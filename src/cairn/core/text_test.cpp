@@ -100,9 +100,9 @@ TEST(NearestName, finds_the_smallest_edit_distance) {
 
 class TextFileTest : public testing::Test {
  protected:
-  TextFile open(std::string_view contents) const {
+  TextFile open(std::string_view contents, Separator separator = Separator::blanks) const {
     write_file(path_, contents);
-    return TextFile(path_);
+    return TextFile(path_, separator);
   }
   void TearDown() override { fs::remove(path_); }
 
@@ -130,6 +130,15 @@ TEST_F(TextFileTest, splits_lines_into_fields) {
   EXPECT_EQ(file.lines()[0].fields, (std::vector<std::string_view>{"1", "2", "3"}));
   EXPECT_EQ(file.lines()[1].number, 5);
   EXPECT_EQ(file.lines()[1].fields, (std::vector<std::string_view>{"4"}));
+  EXPECT_EQ(file.lines()[2].fields, (std::vector<std::string_view>{"last"}));
+}
+
+TEST_F(TextFileTest, splits_lines_at_commas) {
+  const TextFile file = open("#t,name\r\n1, a b ,\t3\r\n\n  \n,# rest\nlast\n", Separator::commas);
+  ASSERT_EQ(file.lines().size(), 3U);
+  EXPECT_EQ(file.lines()[0].number, 2);
+  EXPECT_EQ(file.lines()[0].fields, (std::vector<std::string_view>{"1", "a b", "3"}));
+  EXPECT_EQ(file.lines()[1].fields, (std::vector<std::string_view>{"", ""}));
   EXPECT_EQ(file.lines()[2].fields, (std::vector<std::string_view>{"last"}));
 }
 

@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "cairn/core/random.h"
 
@@ -57,6 +60,33 @@ const NamedCamera kCameras[] = {
       {0.0034823894, 0.0007150348, -0.0020532361, 0.0002029367}}},
 };
 
+/// Lenses as they are made: between a narrow and a wide view, up to the strongest barrel that is sold.
+Camera random_camera(CameraModel model, Random& random) {
+  Camera camera{model, 640, 480, 0, 0, random.uniform(300, 340), random.uniform(220, 260), {}};
+  camera.fx = random.uniform(250, 900);
+  camera.fy = camera.fx * random.uniform(0.97, 1.03);
+  if (model == CameraModel::radtan) {
+    camera.distortion = {random.uniform(-0.35, 0.15), random.uniform(-0.1, 0.15), random.uniform(-2e-3, 2e-3),
+                         random.uniform(-2e-3, 2e-3), random.uniform(-0.02, 0.02)};
+  } else if (model == CameraModel::kb4) {
+    camera.distortion = {random.uniform(-0.06, 0.06), random.uniform(-0.03, 0.03),
+                         random.uniform(-0.02, 0.02), random.uniform(-5e-3, 5e-3), 0};
+  }
+  return camera;
+}
+
+std::vector<NamedCamera> all_cameras() {
+  std::vector<NamedCamera> cameras(std::begin(kCameras), std::end(kCameras));
+  Random random(41);
+  for (const CameraModel model : {CameraModel::pinhole, CameraModel::radtan, CameraModel::kb4}) {
+    for (int i = 0; i < 12; ++i) {
+      cameras.push_back(
+          {std::string(to_string(model)) + "_random_" + std::to_string(i), random_camera(model, random)});
+    }
+  }
+  return cameras;
+}
+
 class CameraTest : public testing::TestWithParam<NamedCamera> {
  protected:
   /// Calls check(pixel) for a grid over the image with its corners.
@@ -69,10 +99,37 @@ class CameraTest : public testing::TestWithParam<NamedCamera> {
     }
   }
 
+  /// Calls check(point) for points in front of the camera that it sees.
+  template <class Check>
+  void for_each_point(const Check& check) const {
+    Random random(11);
+    for (int i = 0; i < 300; ++i) {
+      const double z = random.uniform(0.3, 20.0);
+      const Eigen::Vector3d point(z * random.uniform(-1.5, 1.5), z * random.uniform(-1.5, 1.5), z);
+      const auto pixel = camera_.project(point);
+      if (pixel && camera_.contains(*pixel)) check(point);
+    }
+  }
+
   const Camera& camera_ = GetParam().camera;
 };
 
-INSTANTIATE_TEST_SUITE_P(Models, CameraTest, testing::ValuesIn(kCameras),
+/// By central differences of `value`, whose arguments are moved one after the other by `step`.
+template <int Rows, int Columns, class Value>
+Eigen::Matrix<double, Rows, Columns> differences(const Eigen::Matrix<double, Columns, 1>& at,
+                                                 const Eigen::Matrix<double, Columns, 1>& step,
+                                                 const Value& value) {
+  Eigen::Matrix<double, Rows, Columns> slopes;
+  for (int i = 0; i < Columns; ++i) {
+    Eigen::Matrix<double, Columns, 1> above = at, below = at;
+    above[i] += step[i];
+    below[i] -= step[i];
+    slopes.col(i) = (value(above) - value(below)) / (above[i] - below[i]);
+  }
+  return slopes;
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, CameraTest, testing::ValuesIn(all_cameras()),
                          [](const auto& instance) { return instance.param.name; });
 
 /// A ray may be missing at the rim of a fisheye image, nowhere else.
@@ -98,7 +155,7 @@ TEST_P(CameraTest, projecting_a_pixels_ray_gives_the_pixel) {
 TEST_P(CameraTest, the_ray_of_a_projected_point_goes_through_the_point) {
   Random random(7);
   int seen = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 60'000; ++i) {
     const double z = random.uniform(0.1, 20.0);
     const Eigen::Vector3d point(z * random.uniform(-4, 4), z * random.uniform(-4, 4), z);
     const auto pixel = camera_.project(point);
@@ -132,6 +189,85 @@ TEST_P(CameraTest, sees_nothing_behind_it) {
 TEST_P(CameraTest, stands_points_without_measure) {
   const auto pixel = camera_.project({std::numeric_limits<double>::max(), 1, 1e-3});
   EXPECT_FALSE(pixel && camera_.contains(*pixel));
+}
+
+TEST_P(CameraTest, what_is_no_number_is_seen_nowhere) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (int i = 0; i < 3; ++i) {
+      Eigen::Vector3d point(0.1, 0.2, 1.0);
+      point[i] = bad;
+      if (i < 2) {  // infinitely far ahead is straight ahead
+        EXPECT_FALSE(camera_.project(point)) << point.transpose();
+        EXPECT_FALSE(camera_.project_with_jacobians(point)) << point.transpose();
+      }
+    }
+    EXPECT_FALSE(camera_.unproject({bad, 10}));
+    EXPECT_FALSE(camera_.unproject({10, bad}));
+    EXPECT_FALSE(camera_.unproject_with_jacobian({bad, 10}));
+  }
+}
+
+/// Pixels far outside the image, too: a ray comes back to its pixel, or there is none.
+TEST_P(CameraTest, what_is_unprojected_is_projected_back_everywhere) {
+  Random random(3);
+  for (int i = 0; i < 3000; ++i) {
+    const Eigen::Vector2d pixel(random.uniform(-2000, 3000), random.uniform(-2000, 3000));
+    const auto ray = camera_.unproject(pixel);
+    if (!ray) continue;
+    const auto again = camera_.project(ray->homogeneous());
+    ASSERT_TRUE(again) << pixel.transpose();
+    EXPECT_LT((*again - pixel).norm(), 1e-6) << pixel.transpose();
+  }
+}
+
+TEST_P(CameraTest, derivatives_of_the_projection_by_the_point) {
+  for_each_point([&](const Eigen::Vector3d& point) {
+    const auto projected = camera_.project_with_jacobians(point);
+    ASSERT_TRUE(projected);
+    EXPECT_EQ(projected->pixel, *camera_.project(point));
+    const Eigen::Vector3d step = Eigen::Vector3d::Constant(1e-6 * point.z());
+    const auto numeric =
+        differences<2, 3>(point, step, [&](const Eigen::Vector3d& at) { return *camera_.project(at); });
+    EXPECT_LT((projected->by_point - numeric).norm(), 1e-6 * numeric.norm()) << point.transpose();
+  });
+}
+
+TEST_P(CameraTest, derivatives_of_the_projection_by_the_intrinsics) {
+  using Intrinsics = Eigen::Matrix<double, 9, 1>;
+  Intrinsics given;
+  given << camera_.fx, camera_.fy, camera_.cx, camera_.cy,
+      Eigen::Map<const Eigen::Matrix<double, 5, 1>>(camera_.distortion.data());
+  for_each_point([&](const Eigen::Vector3d& point) {
+    const auto project_with = [&](const Intrinsics& i) {
+      Camera camera{camera_.model, camera_.width, camera_.height, i[0], i[1], i[2], i[3], {}};
+      std::copy(i.data() + 4, i.data() + 9, camera.distortion.begin());
+      return *camera.project(point);
+    };
+    Intrinsics step = Intrinsics::Constant(1e-7);
+    step.head<4>().setConstant(1e-3);
+    const auto numeric = differences<2, 9>(given, step, project_with);
+    const auto analytic = camera_.project_with_jacobians(point)->by_intrinsics;
+    EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff(), 1e-5 * (1 + numeric.norm())) << point.transpose();
+  });
+}
+
+TEST_P(CameraTest, derivatives_of_the_ray_by_the_pixel) {
+  for_each_point([&](const Eigen::Vector3d& point) {
+    const Eigen::Vector2d pixel = *camera_.project(point);
+    const auto unprojected = camera_.unproject_with_jacobian(pixel);
+    ASSERT_TRUE(unprojected);
+    EXPECT_EQ(unprojected->ray, *camera_.unproject(pixel));
+    const Eigen::Matrix2d by_plane =
+        camera_.project_with_jacobians(unprojected->ray.homogeneous())->by_point.leftCols<2>();
+    EXPECT_LT((unprojected->by_pixel * by_plane - Eigen::Matrix2d::Identity()).norm(), 1e-9);
+    const Eigen::Vector2d step = Eigen::Vector2d::Constant(1e-3);
+    const auto numeric =
+        differences<2, 2>(pixel, step, [&](const Eigen::Vector2d& at) { return *camera_.unproject(at); });
+    if (by_plane.determinant() > 1e-2 * camera_.fx * camera_.fy) {  // away from the fold, where it is steep
+      EXPECT_LT((unprojected->by_pixel - numeric).norm(), 1e-4 * numeric.norm()) << pixel.transpose();
+    }
+  });
 }
 
 /// No fold within the image: right stays right, down stays down.

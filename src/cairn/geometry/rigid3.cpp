@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/rigid3.h"
 
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 
 namespace cairn {
 
@@ -27,6 +30,16 @@ Eigen::Vector3d rotation_log(const Eigen::Quaterniond& rotation) {
 
 double rotation_angle(const Eigen::Quaterniond& rotation) {
   return 2.0 * std::atan2(rotation.vec().norm(), std::abs(rotation.w()));
+}
+
+double deviation_from_rotation(const Eigen::Matrix3d& matrix) {
+  if (!(matrix.determinant() > 0)) return std::numeric_limits<double>::infinity();
+  return (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+}
+
+Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
 }
 
 Rigid3 perturb_left(const Vector6d& xi, const Rigid3& target_from_source) {

@@ -39,6 +39,11 @@ struct Rigid3 {
 /// Angle of a rotation, radians in [0, pi].
 [[nodiscard]] double rotation_angle(const Eigen::Quaterniond& rotation);
 
+/// Largest entry of |R^T R - 1|, 0 for a rotation; infinite for a matrix that mirrors or holds a NaN.
+[[nodiscard]] double deviation_from_rotation(const Eigen::Matrix3d& matrix);
+/// The rotation nearest to a matrix that is one up to rounding.
+[[nodiscard]] Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix);
+
 /// Left perturbation used by all solvers here, in the order (rotation, translation):
 /// exp(w) * R and exp(w) * t + v for xi = (w, v). The translation part is not multiplied by the left
 /// Jacobian.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -132,6 +133,23 @@ TEST_F(Rigid3Test, skew_is_the_cross_product) {
 
 TEST(MotionNorm, adds_angle_and_distance) {
   EXPECT_NEAR(motion_norm({rotation_exp({0.3, 0, 0}), {0, 3, 4}}), 5.3, 1e-14);
+}
+
+TEST(NearestRotation, undoes_small_errors) {
+  const Eigen::Quaterniond rotation = rotation_exp({0.3, -0.2, 0.9});
+  Eigen::Matrix3d matrix = rotation.toRotationMatrix();
+  EXPECT_LT(deviation_from_rotation(matrix), 1e-15);
+  matrix(0, 1) += 1e-4;
+  EXPECT_GT(deviation_from_rotation(matrix), 1e-5);
+  EXPECT_LT(deviation_from_rotation(matrix), 1e-3);
+  EXPECT_LT(rotation_angle(rotation.conjugate() * nearest_rotation(matrix)), 1e-4);
+  EXPECT_LT(deviation_from_rotation(nearest_rotation(matrix).toRotationMatrix()), 1e-15);
+}
+
+TEST(NearestRotation, mirrors_and_numbers_that_are_none_are_far_from_rotations) {
+  EXPECT_EQ(deviation_from_rotation(-Eigen::Matrix3d::Identity()), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(deviation_from_rotation(Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN())),
+            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

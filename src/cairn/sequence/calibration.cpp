@@ -2,93 +2,20 @@
 #include "cairn/sequence/calibration.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
+#include <numbers>
 
 #include "cairn/core/error.h"
-#include "cairn/core/file.h"
-#include "cairn/core/text.h"
+#include "cairn/sequence/yaml_mapping.h"
 
 namespace cairn {
 namespace {
 
-/// Reads one YAML mapping with the rules of all our configuration: unknown keys are errors, every error has a
-/// line.
-class Mapping {
- public:
-  Mapping(std::string file, std::string name, const YAML::Node& node, const std::vector<std::string>& known)
-      : file_(std::move(file)), name_(std::move(name)), node_(node) {
-    if (!node_.IsMap())
-      fail(node_, fmt::format("a mapping for '{}'", name_), describe(node_),
-           "See the README, \"Calibration\".");
-    std::set<std::string> seen;
-    for (const auto& item : node_) {
-      const std::string key = item.first.IsScalar() ? item.first.Scalar() : "a list or mapping";
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
-        fail(item.first, fmt::format("a known key in '{}'", name_), fmt::format("'{}'", key),
-             fmt::format("Did you mean '{}'?", nearest_name(key, known)));
-      }
-      if (!seen.insert(key).second)
-        fail(item.first, fmt::format("one '{}' in '{}'", key, name_), "two", "Delete one.");
-    }
-  }
-
-  [[nodiscard]] bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
-
-  template <class T>
-  [[nodiscard]] T get(const std::string& key, const std::string& kind) const {
-    const YAML::Node value = node_[key];
-    if (!value)
-      fail(node_, fmt::format("'{}' in '{}' ({})", key, name_, kind), "none", fmt::format("Add '{}'.", key));
-    try {
-      return value.as<T>();
-    } catch (const YAML::Exception&) {
-      fail(value, fmt::format("{} for '{}'", kind, key), describe(value), "Mend the value.");
-    }
-  }
-
-  [[nodiscard]] double number(const std::string& key) const {
-    const auto value = get<double>(key, "a number");
-    check(std::isfinite(value), key, "a finite number");
-    return value;
-  }
-  [[nodiscard]] double positive(const std::string& key) const {
-    const double value = number(key);
-    check(value > 0, key, "a number above 0");
-    return value;
-  }
-  [[nodiscard]] Mapping sub(const std::string& key, const std::vector<std::string>& known) const {
-    return {file_, key, node_[key], known};
-  }
-
-  void check(bool holds, const std::string& key, const std::string& expected) const {
-    const YAML::Node value = node_[key];
-    if (!holds) fail(value, fmt::format("{} for '{}'", expected, key), describe(value), "Mend the value.");
-  }
-
- private:
-  static std::string describe(const YAML::Node& value) {
-    if (value.IsScalar()) return fmt::format("'{}'", value.Scalar());
-    if (value.IsSequence()) return fmt::format("a list of {}", value.size());
-    return value.IsMap() ? "a mapping" : "nothing";
-  }
-
-  [[noreturn]] void fail(const YAML::Node& at, std::string expected, std::string found,
-                         std::string remedy) const {
-    throw InputError({file_, at.Mark().line + 1, std::move(expected), std::move(found), std::move(remedy)});
-  }
-
-  std::string file_, name_;
-  YAML::Node node_;
-};
-
-CameraModel parse_model(const Mapping& mapping) {
+CameraModel parse_model(const YamlMapping& mapping) {
   const auto name = mapping.has("model") ? mapping.get<std::string>("model", "a camera model") : "pinhole";
   for (const CameraModel model : {CameraModel::pinhole, CameraModel::radtan, CameraModel::kb4}) {
     if (name == to_string(model)) return model;
@@ -97,7 +24,7 @@ CameraModel parse_model(const Mapping& mapping) {
   return CameraModel::pinhole;
 }
 
-void parse_distortion(const Mapping& mapping, Camera& camera) {
+void parse_distortion(const YamlMapping& mapping, Camera& camera) {
   if (!mapping.has("distortion")) {
     mapping.check(camera.model == CameraModel::pinhole, "model", "'distortion' beside radtan or kb4");
     return;
@@ -121,14 +48,14 @@ void parse_distortion(const Mapping& mapping, Camera& camera) {
   }
 }
 
-int parse_side(const Mapping& mapping, const std::string& key) {
+int parse_side(const YamlMapping& mapping, const std::string& key) {
   constexpr int kMaxSide = 32768;
   const int pixels = mapping.get<int>(key, "a whole number of pixels");
   mapping.check(pixels > 0 && pixels <= kMaxSide, key, "from 1 to 32768 pixels");
   return pixels;
 }
 
-Camera parse_camera(const Mapping& mapping) {
+Camera parse_camera(const YamlMapping& mapping) {
   Camera camera;
   camera.model = parse_model(mapping);
   camera.width = parse_side(mapping, "width");
@@ -143,7 +70,7 @@ Camera parse_camera(const Mapping& mapping) {
 
 const std::vector<std::string> kCameraKeys{"model", "width", "height", "fx", "fy", "cx", "cy", "distortion"};
 
-Rigid3 parse_transform(const Mapping& mapping) {
+Rigid3 parse_transform(const YamlMapping& mapping) {
   const auto t = mapping.get<std::vector<double>>("translation", "three numbers, metres");
   const auto q = mapping.get<std::vector<double>>("quaternion_xyzw", "four numbers");
   mapping.check(t.size() == 3, "translation", "three numbers, metres");
@@ -156,7 +83,7 @@ Rigid3 parse_transform(const Mapping& mapping) {
   return transform;
 }
 
-DepthCalibration parse_depth(const Mapping& mapping) {
+DepthCalibration parse_depth(const YamlMapping& mapping) {
   DepthCalibration depth;
   depth.scale = mapping.positive("scale");
   if (mapping.has("invalid")) {
@@ -173,6 +100,28 @@ DepthCalibration parse_depth(const Mapping& mapping) {
         parse_transform(mapping.sub("camera_from_depth", {"translation", "quaternion_xyzw"}));
   }
   return depth;
+}
+
+/// The second camera of a rectified pair, by its distance, or of a raw one.
+void parse_right(const YamlMapping& mapping, Calibration& calibration) {
+  if (!mapping.has("camera")) {
+    calibration.baseline = mapping.positive("baseline");
+    return;
+  }
+  mapping.check(!mapping.has("baseline"), "baseline", "either 'baseline' or 'camera'; no value");
+  mapping.check(!calibration.depth, "camera", "'baseline' instead, as there is 'depth'; nothing");
+  mapping.expect("left_from_right", "where the right camera sits");
+  const YamlMapping transform = mapping.sub("left_from_right", {"translation", "quaternion_xyzw"});
+  set_raw_stereo(
+      {calibration.camera, parse_camera(mapping.sub("camera", kCameraKeys)), parse_transform(transform)},
+      {transform.file(), transform.line()}, calibration);
+}
+
+std::string format_transform(const Rigid3& transform) {
+  const auto& t = transform.translation;
+  const auto& q = transform.rotation;
+  return fmt::format("{{translation: [{}, {}, {}], quaternion_xyzw: [{}, {}, {}, {}]}}", t.x(), t.y(), t.z(),
+                     q.x(), q.y(), q.z(), q.w());
 }
 
 std::string format_camera(const Camera& c) {
@@ -194,28 +143,49 @@ Calibration tum_calibration(double fx, double fy, double cx, double cy,
   return calibration;
 }
 
+InputError::Details why_no_pair(RectificationStatus status, const Rigid3& left_from_right) {
+  const Eigen::Vector3d& t = left_from_right.translation;
+  const std::string found = fmt::format("the right one at ({:g}, {:g}, {:g}) m", t.x(), t.y(), t.z());
+  if (status == RectificationStatus::no_baseline)
+    return {"", 0, "two cameras that are apart", found, "Give the right camera's place, in metres."};
+  if (status == RectificationStatus::right_is_left) {
+    return {"", 0, "the right camera to the right of the left one", found,
+            "Swap the cameras, or invert the transform."};
+  }
+  const double angle_deg = rotation_angle(left_from_right.rotation) * 180.0 / std::numbers::pi;
+  return {
+      "", 0, "two cameras beside each other that look the same way",
+      fmt::format("no view in common: {}, turned by {:.1f} degrees", found, angle_deg),
+      "Check rotation and translation: they move points from the right camera's frame to the left one's."};
+}
+
 }  // namespace
 
-Calibration read_calibration(const std::filesystem::path& path) {
-  YAML::Node root;
-  try {
-    root = YAML::Load(read_file(path));
-  } catch (const YAML::Exception& error) {
-    throw InputError({path.string(), error.mark.line + 1, "YAML", error.msg, "Mend the line."});
+void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calibration& calibration) {
+  const StereoRectification rectification = rectify_stereo(pair);
+  if (rectification.status != RectificationStatus::ok) {
+    InputError::Details why = why_no_pair(rectification.status, pair.left_from_right);
+    why.file = place.file;
+    why.line = place.line;
+    throw InputError(std::move(why));
   }
-  if (root.IsNull())
-    throw InputError(
-        {path.string(), 0, "a calibration", "an empty file", "See the README, \"Calibration\"."});
-  const Mapping mapping(path.string(), "calibration", root,
-                        {"camera", "right", "depth", "poses_are", "rate_hz"});
+  calibration.camera = rectification.camera;
+  calibration.baseline = rectification.baseline;
+  calibration.raw_stereo = RawStereo{pair, rectification};
+}
+
+Calibration read_calibration(const std::filesystem::path& path) {
+  const YamlMapping mapping(path.string(), "calibration", load_yaml(path),
+                            {"camera", "right", "depth", "poses_are", "rate_hz"});
   Calibration calibration;
-  if (!mapping.has("camera")) (void)mapping.get<std::string>("camera", "the colour or left camera");
+  mapping.expect("camera", "the colour or left camera");
   calibration.camera = parse_camera(mapping.sub("camera", kCameraKeys));
-  if (mapping.has("right")) calibration.baseline = mapping.sub("right", {"baseline"}).positive("baseline");
   if (mapping.has("depth")) {
     calibration.depth =
         parse_depth(mapping.sub("depth", {"scale", "invalid", "camera", "camera_from_depth"}));
   }
+  if (mapping.has("right"))
+    parse_right(mapping.sub("right", {"baseline", "camera", "left_from_right"}), calibration);
   if (mapping.has("poses_are")) {
     const auto which = mapping.get<std::string>("poses_are", "camera or depth");
     mapping.check(which == "camera" || which == "depth", "poses_are", "camera or depth");
@@ -230,19 +200,21 @@ Calibration read_calibration(const std::filesystem::path& path) {
 }
 
 std::string format_calibration(const Calibration& calibration) {
-  std::string text = fmt::format("camera: {}\n", format_camera(calibration.camera));
-  if (calibration.baseline) text += fmt::format("right: {{baseline: {}}}\n", *calibration.baseline);
+  const auto& raw = calibration.raw_stereo;
+  std::string text = fmt::format("camera: {}\n", format_camera(raw ? raw->pair.left : calibration.camera));
+  if (raw) {
+    text += fmt::format("right:\n  camera: {}\n  left_from_right: {}\n", format_camera(raw->pair.right),
+                        format_transform(raw->pair.left_from_right));
+  } else if (calibration.baseline) {
+    text += fmt::format("right: {{baseline: {}}}\n", *calibration.baseline);
+  }
   if (calibration.depth) {
     const DepthCalibration& depth = *calibration.depth;
     text +=
         fmt::format("depth:\n  scale: {}\n  invalid: [{}]\n", depth.scale, fmt::join(depth.invalid, ", "));
     if (depth.camera) text += fmt::format("  camera: {}\n", format_camera(*depth.camera));
     if (depth.camera || motion_norm(depth.camera_from_depth) > 0) {
-      const auto& t = depth.camera_from_depth.translation;
-      const auto& q = depth.camera_from_depth.rotation;
-      text += fmt::format(
-          "  camera_from_depth: {{translation: [{}, {}, {}], quaternion_xyzw: [{}, {}, {}, {}]}}\n", t.x(),
-          t.y(), t.z(), q.x(), q.y(), q.z(), q.w());
+      text += fmt::format("  camera_from_depth: {}\n", format_transform(depth.camera_from_depth));
     }
   }
   if (calibration.poses_are == PosesAre::depth) text += "poses_are: depth\n";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cairn/geometry/camera.h"
+#include "cairn/geometry/rectification.h"
 #include "cairn/geometry/rigid3.h"
 
 namespace cairn {
@@ -20,16 +21,33 @@ struct DepthCalibration {
   Rigid3 camera_from_depth;
 };
 
+/// A stereo pair as it was recorded, and what FrameLoader makes of it.
+struct RawStereo {
+  StereoPair pair;
+  StereoRectification rectification;  ///< of status ok
+};
+
 enum class PosesAre { camera, depth };
 
 /// What camera.yaml says (docs: README, "Calibration").
 struct Calibration {
-  Camera camera;                          ///< colour or left camera
-  std::optional<double> baseline;         ///< rectified stereo, metres
+  Camera camera;                          ///< colour or left camera, as FrameLoader's images are: rectified
+  std::optional<double> baseline;         ///< stereo, after rectification, metres
+  std::optional<RawStereo> raw_stereo;    ///< where the images on disk are not rectified
   std::optional<DepthCalibration> depth;  ///< RGB-D
   PosesAre poses_are = PosesAre::camera;  ///< which camera the given poses belong to
   double rate_hz = 30.0;                  ///< for formats without time stamps
 };
+
+/// Where something of a calibration stands, for messages; line 0 where it means nothing.
+struct CalibrationPlace {
+  std::string file;
+  int line = 0;
+};
+
+/// Rectifies a pair: sets camera, baseline and raw_stereo. InputError that names `place` for cameras that
+/// make no pair: in one place, right and left exchanged, without a view in common.
+void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calibration& calibration);
 
 /// InputError with the line for an unknown key, a missing one, fx = 0, a scale of 0, a wrong type.
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& path);

@@ -12,7 +12,8 @@
 namespace cairn {
 
 /// One pair of functions per format. `is_...` looks at names only; `list_...` fills frames, truth (of the
-/// camera that the format's poses belong to), report and the format's own calibration if it carries one.
+/// camera that the format's poses belong to, before rectification), report and, unless the user gave one, the
+/// format's own calibration if it carries one.
 [[nodiscard]] bool is_tum(const std::filesystem::path& folder);
 void list_tum(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
@@ -22,6 +23,10 @@ void list_seven_scenes(const std::filesystem::path& folder, Sequence& sequence);
 /// Grey stereo pairs of the KITTI odometry benchmark; carries its own calibration.
 [[nodiscard]] bool is_kitti(const std::filesystem::path& folder);
 void list_kitti(const std::filesystem::path& folder, Sequence& sequence);
+
+/// Raw stereo pairs in the ASL layout; carries its own calibration.
+[[nodiscard]] bool is_euroc(const std::filesystem::path& folder);
+void list_euroc(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
 /// Files named by their number in two folders, named by the options or by habit (rgb_index and dep_index, rgb
 /// and depth, ...); poses in trajectory.txt, by number.

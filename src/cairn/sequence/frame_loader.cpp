@@ -4,6 +4,7 @@
 #include "cairn/core/error.h"
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
+#include "cairn/image/remap.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn {
@@ -19,11 +20,29 @@ void expect_size(const Image<Pixel>& image, const Camera& camera, const std::fil
        "Give the calibration that belongs to these images."});
 }
 
+/// An image of one camera of a stereo pair, or of the only one, as the calibration's camera sees it.
+struct CameraView {
+  Camera raw;  ///< of the images on disk
+  std::optional<ImageRemap> rectify;
+
+  template <class ImageType>
+  [[nodiscard]] ImageType see(ImageType image, const std::filesystem::path& path) const {
+    expect_size(image, raw, path);
+    return rectify ? (*rectify)(image) : std::move(image);
+  }
+};
+
+CameraView rectified_view(const Camera& raw, const Camera& rectified,
+                          const Eigen::Quaterniond& rectified_from_raw) {
+  return {raw, ImageRemap(raw, rectified, rectified_from_raw.conjugate())};
+}
+
 }  // namespace
 
 struct FrameLoader::Impl {
   const Sequence* sequence;
   std::optional<DepthRegistration> registration;
+  CameraView left, right;
 
   [[nodiscard]] const FrameFiles& files(FrameId id) const {
     require(id.valid() && static_cast<std::size_t>(id.value) < sequence->frames.size(),
@@ -32,20 +51,31 @@ struct FrameLoader::Impl {
   }
 };
 
-FrameLoader::FrameLoader(const Sequence& sequence)
-    : impl_(std::make_unique<Impl>(Impl{&sequence, std::nullopt})) {
-  const auto& depth = sequence.calibration.depth;
-  if (depth && depth->camera)
-    impl_->registration.emplace(*depth->camera, sequence.calibration.camera, depth->camera_from_depth);
+FrameLoader::FrameLoader(const Sequence& sequence) : impl_(std::make_unique<Impl>()) {
+  const Calibration& calibration = sequence.calibration;
+  impl_->sequence = &sequence;
+  impl_->left.raw = impl_->right.raw = calibration.camera;
+  if (calibration.depth && calibration.depth->camera) {
+    impl_->registration.emplace(*calibration.depth->camera, calibration.camera,
+                                calibration.depth->camera_from_depth);
+  }
+  if (calibration.raw_stereo) {
+    const auto& [pair, rectification] = *calibration.raw_stereo;
+    impl_->left = rectified_view(pair.left, calibration.camera, rectification.rectified_from_left);
+    impl_->right = rectified_view(pair.right, calibration.camera, rectification.rectified_from_right);
+  }
 }
 
 FrameLoader::~FrameLoader() = default;
 
 RgbImage FrameLoader::load_color(FrameId id) const {
   const auto& path = impl_->files(id).color;
-  RgbImage image = read_rgb(path);
-  expect_size(image, impl_->sequence->calibration.camera, path);
-  return image;
+  return impl_->left.see(read_rgb(path), path);
+}
+
+GrayImage FrameLoader::load_right(FrameId id) const {
+  const auto& path = impl_->files(id).right;
+  return path.empty() ? GrayImage() : impl_->right.see(read_gray(path), path);
 }
 
 DepthImage FrameLoader::load_depth(FrameId id) const {
@@ -60,9 +90,9 @@ DepthImage FrameLoader::load_depth(FrameId id) const {
 
 Frame FrameLoader::load(FrameId id) const {
   const FrameFiles& files = impl_->files(id);
-  Frame frame{id, files.stamp_ns, read_gray(files.color), {}};
-  expect_size(frame.gray, impl_->sequence->calibration.camera, files.color);
+  Frame frame{id, files.stamp_ns, impl_->left.see(read_gray(files.color), files.color), {}, {}};
   frame.depth = load_depth(id);
+  frame.right = load_right(id);
   return frame;
 }
 

@@ -4,8 +4,6 @@
 // poses.txt, where there is one, 3x4 world_from_camera of the left camera by rows.
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,24 +101,18 @@ std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
                     fmt::format("{}", stamps.size()), "Add or delete lines, or images."});
 }
 
-/// The rotation nearest to a matrix that is one up to rounding.
-Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
-}
-
 Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
   file.expect_fields(line, 12, "3x4 world_from_camera by rows");
   Eigen::Matrix<double, 3, 4> m;
   for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i), "the pose");
   const Eigen::Matrix3d r = m.leftCols<3>();
   constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout does not
-  const double deviation = (r.transpose() * r - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  const bool mirrors = r.determinant() <= 0;
-  if (!(deviation <= kMaxDeviation) || mirrors) {
+  const double deviation = deviation_from_rotation(r);
+  if (deviation > kMaxDeviation) {
     file.fail(line, "a rotation in columns 1-3, 5-7, 9-11",
-              mirrors ? "a matrix that mirrors"
-                      : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
+              std::isinf(deviation)
+                  ? "a matrix that mirrors"
+                  : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
               "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
   }
   return {nearest_rotation(r), m.col(3)};
@@ -136,6 +128,14 @@ Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& sta
   for (std::size_t i = 0; i < stamps.size(); ++i)
     trajectory.push_back({stamps[i], parse_pose(file, file.lines()[i])});
   return trajectory;
+}
+
+void read_calib(const fs::path& path, const fs::path& first_image, Sequence& sequence) {
+  read_rig(path, sequence.calibration);
+  const GrayImage first = read_gray(first_image);
+  sequence.calibration.camera.width = first.width();
+  sequence.calibration.camera.height = first.height();
+  sequence.calibration_source = path.string();
 }
 
 }  // namespace
@@ -158,13 +158,10 @@ void list_kitti(const fs::path& folder, Sequence& sequence) {
     if (!parse_integer(left[i].stem().string(), number)) number = static_cast<std::int64_t>(i);
     sequence.frames.push_back({stamps[i], number, left[i], {}, right[i]});
   }
-  read_rig(folder / "calib.txt", sequence.calibration);
-  const GrayImage first = read_gray(left[0]);
-  sequence.calibration.camera.width = first.width();
-  sequence.calibration.camera.height = first.height();
-  sequence.calibration_source = (folder / "calib.txt").string();
+  if (sequence.calibration_source.empty()) read_calib(folder / "calib.txt", left[0], sequence);
   if (fs::exists(folder / "poses.txt")) sequence.truth = read_poses(folder / "poses.txt", stamps);
-  sequence.report.color_images = static_cast<std::int64_t>(left.size());
+  sequence.report.color_images = sequence.report.right_images = static_cast<std::int64_t>(left.size());
+  sequence.report.associated = sequence.report.color_images;
 }
 
 }  // namespace cairn

@@ -206,5 +206,38 @@ TEST(kitti, real_recording_opens) {
   EXPECT_EQ(sequence.truth->size(), 200U);
 }
 
+/// Of a rectified sequence all that is read is written again; stamps to the nanosecond.
+TEST_F(KittiTest, a_rectified_sequence_is_written_as_it_is) {
+  write("times.txt", "1403715273.262142976\n1403715273.312142976\n1403715273.362142976\n");
+  const fs::path written = folder_ / "written";
+  fs::create_directories(written);
+  const Sequence sequence = open_sequence(folder_);
+  Progress silent;
+  const RectifiedReport report = write_rectified(sequence, written, Executor(2), silent);
+  EXPECT_EQ(report.frames, 3);
+  EXPECT_TRUE(report.has_poses);
+  EXPECT_FALSE(report.stopped);
+  const Sequence again = open_sequence(written);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(again.frames[i].stamp_ns, sequence.frames[i].stamp_ns);
+    EXPECT_EQ(read_gray(again.frames[i].right), read_gray(sequence.frames[i].right));
+    EXPECT_LT(left_perturbation(again.truth->at(i).world_from_camera, sequence.truth->at(i).world_from_camera)
+                  .norm(),
+              1e-9);
+  }
+  EXPECT_EQ(again.calibration.camera.fx, sequence.calibration.camera.fx);
+  EXPECT_EQ(again.calibration.baseline, sequence.calibration.baseline);
+}
+
+TEST_F(KittiTest, without_all_poses_none_are_written) {
+  Sequence sequence = open_sequence(folder_);
+  sequence.truth->pop_back();
+  const fs::path written = folder_ / "written";
+  fs::create_directories(written);
+  Progress silent;
+  EXPECT_FALSE(write_rectified(sequence, written, Executor(), silent).has_poses);
+  EXPECT_FALSE(fs::exists(written / "poses.txt"));
+}
+
 }  // namespace
 }  // namespace cairn

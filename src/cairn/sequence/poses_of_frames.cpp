@@ -51,7 +51,8 @@ PosesOfFrames expect_some(PosesOfFrames poses, const fs::path& file, std::string
 
 PosesOfFrames poses_of_frames(const Sequence& sequence, const fs::path& path, double max_gap_s) {
   const auto within = [](double gap_s) { return fmt::format("poses within {} s of the frames", gap_s); };
-  const bool has_clock = sequence.format == "TUM";  // elsewhere poses and frames have the same stamps
+  // elsewhere poses and frames have the same stamps
+  const bool has_clock = sequence.format == "TUM" || sequence.format == "EuRoC";
   if (path.empty()) {
     if (!sequence.truth) {
       throw InputError({sequence.folder.string(), 0, "poses", "a sequence that carries none",

@@ -40,7 +40,7 @@ void choose_calibration(const fs::path& folder, const SequenceOptions& options, 
   }
   throw InputError({folder.string(), 0,
                     "a sequence: TUM (rgb.txt, depth.txt), 7-Scenes (frame-000000.color.*), KITTI (image_0, "
-                    "image_1, calib.txt, times.txt) or numbered files",
+                    "image_1, calib.txt, times.txt), EuRoC (cam0, cam1, or mav0 with both) or numbered files",
                     fs::is_empty(folder) ? "an empty folder" : "none of these",
                     "Name the folder that holds these files, or rgb_dir and depth_dir in a parameter file."});
 }
@@ -50,6 +50,7 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   if (is_tum(folder)) return list_tum(folder, options, sequence);
   if (is_seven_scenes(folder)) return list_seven_scenes(folder, sequence);
   if (is_kitti(folder)) return list_kitti(folder, sequence);
+  if (is_euroc(folder)) return list_euroc(folder, options, sequence);
   if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
   fail_unknown_format(folder);
 }
@@ -73,6 +74,11 @@ void check_parameters(const SequenceOptions& options) {
 void apply_parameters(const CameraParameters& given, Sequence& sequence) {
   Calibration& calibration = sequence.calibration;
   Camera& camera = calibration.camera;
+  if (calibration.raw_stereo && (given.fx || given.fy || given.cx || given.cy)) {
+    throw InputError({"camera.fx, camera.fy, camera.cx, camera.cy", 0,
+                      "none of them for a raw stereo pair, whose images are rectified", "one",
+                      "Give a camera.yaml with both cameras instead (--camera)."});
+  }
   if (camera.width == 0 && given.fx && given.fy && given.cx && given.cy && !sequence.frames.empty()) {
     const GrayImage first = read_gray(sequence.frames.front().color);
     camera.width = first.width();
@@ -94,6 +100,11 @@ void check_calibration(const fs::path& folder, const Sequence& sequence) {
       "benchmark --camera tum-fr1, tum-fr2 or tum-fr3.";
   if (sequence.calibration.camera.width == 0) {
     throw InputError({folder.string(), 0, "a calibration", "none", remedy});
+  }
+  if (sequence.calibration.raw_stereo && sequence.frames[0].right.empty()) {
+    throw InputError({sequence.calibration_source, 0,
+                      fmt::format("one camera, as a sequence of format {} has", sequence.format), "two",
+                      "Delete 'right'."});
   }
   const bool has_depth = !sequence.frames.empty() && !sequence.frames[0].depth.empty();
   if (has_depth && !sequence.calibration.depth) {
@@ -123,13 +134,20 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
   sequence.frames = std::move(kept);
 }
 
-/// Poses of the depth camera become poses of the colour camera.
-void honour_poses_are(Sequence& sequence) {
-  if (!sequence.truth || sequence.calibration.poses_are != PosesAre::depth || !sequence.calibration.depth)
+/// Poses of the depth camera, or of the left one before rectification, become poses of the camera that the
+/// calibration has.
+void move_truth_to_camera(Sequence& sequence) {
+  const Calibration& calibration = sequence.calibration;
+  if (!sequence.truth) return;
+  Rigid3 given_from_camera;
+  if (calibration.poses_are == PosesAre::depth && calibration.depth)
+    given_from_camera = calibration.depth->camera_from_depth.inverse();
+  else if (calibration.raw_stereo)
+    given_from_camera.rotation = calibration.raw_stereo->rectification.rectified_from_left.conjugate();
+  else
     return;
-  const Rigid3 depth_from_camera = sequence.calibration.depth->camera_from_depth.inverse();
   for (StampedPose& pose : *sequence.truth)
-    pose.world_from_camera = pose.world_from_camera * depth_from_camera;
+    pose.world_from_camera = pose.world_from_camera * given_from_camera;
 }
 
 Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
@@ -149,7 +167,7 @@ Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
   select_frames(options, sequence);
   apply_parameters(options.camera_parameters, sequence);
   check_calibration(folder, sequence);
-  honour_poses_are(sequence);
+  move_truth_to_camera(sequence);
   return sequence;
 }
 

@@ -27,22 +27,24 @@ struct FrameFiles {
 
 /// How the frames were found, for `cairn info` and warnings.
 struct SequenceReport {
-  std::string associated_by;  ///< how colour found its depth: "time, nearest stamp", a file; empty: by name
-  std::int64_t color_images = 0;
+  std::string
+      associated_by;  ///< how images found their partners: "time, nearest stamp", a file; empty: by name
+  std::int64_t color_images = 0;  ///< colour or left
   std::int64_t depth_images = 0;
-  std::int64_t associated = 0;  ///< colour images that got a depth image
-  double max_stamp_gap_s = 0;   ///< largest |colour stamp - depth stamp| of a pair
+  std::int64_t right_images = 0;
+  std::int64_t associated = 0;  ///< colour images that got a depth image, left ones that got a right one
+  double max_stamp_gap_s = 0;   ///< largest difference of the stamps of a pair
 };
 
 /// A recording on disk: which images, when, seen by which cameras; the images are decoded by FrameLoader.
 struct Sequence {
   std::filesystem::path folder;
-  std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI"
+  std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI", "EuRoC"
   Calibration calibration;
   std::string calibration_source;  ///< where the calibration comes from, for people
   std::vector<FrameFiles> frames;  ///< stamps strictly increasing
-  std::optional<Trajectory>
-      truth;  ///< world_from_camera of the colour (left) camera, where the format carries it
+  /// world_from_camera of the colour (rectified left) camera, where the format carries it.
+  std::optional<Trajectory> truth;
   SequenceReport report;
 };
 
@@ -58,7 +60,7 @@ struct SequenceOptions {
   std::string rgb_dir, rgb_extension;  ///< numbered files, where given
   std::string depth_dir, depth_extension;
   std::optional<std::int64_t> start_index, end_index;  ///< file numbers, inclusive
-  double max_stamp_gap_s = 0.02;      ///< TUM: largest difference of an associated pair (as the TUM tools)
+  double max_stamp_gap_s = 0.02;  ///< TUM, EuRoC: largest difference of an associated pair (as the TUM tools)
   std::optional<FrameRange> frames;   ///< only these
   std::optional<FrameRange> without;  ///< not these
 };
@@ -68,9 +70,10 @@ struct SequenceOptions {
                                      const SequenceOptions& options = {});
 
 /// The poses a user names by --poses, or the sequence's own truth when `path` is empty: world_from_camera,
-/// one for each frame that has one (nullopt elsewhere). TUM files are associated by time (nearest, at most
-/// `max_gap_s`); a file whose first column holds whole numbers belongs to the frames of these numbers, except
-/// in a TUM sequence, which has none. InputError where no frame gets a pose.
+/// one for each frame that has one (nullopt elsewhere). A file's poses are of the camera whose images
+/// FrameLoader gives. TUM files are associated by time (nearest, at most `max_gap_s`); a file whose first
+/// column holds whole numbers belongs to the frames of these numbers, except in a TUM sequence, which has
+/// none. InputError where no frame gets a pose.
 [[nodiscard]] std::vector<std::optional<Rigid3>> poses_of_frames(const Sequence& sequence,
                                                                  const std::filesystem::path& path,
                                                                  double max_gap_s = 0.02);
@@ -81,9 +84,11 @@ struct Frame {
   std::int64_t stamp_ns = 0;
   GrayImage gray;
   DepthImage depth;  ///< registered to the colour camera, metres; empty where the sequence has none
+  GrayImage right;   ///< of a stereo pair; empty where the sequence has none
 };
 
-/// Decodes frames of one sequence, which must live as long; safe to call from several threads.
+/// Decodes frames of one sequence, which must live as long; safe to call from several threads. Raw stereo
+/// pairs come rectified: what is loaded fits Calibration::camera.
 class FrameLoader {
  public:
   explicit FrameLoader(const Sequence& sequence);
@@ -93,6 +98,7 @@ class FrameLoader {
   [[nodiscard]] Frame load(FrameId id) const;
   [[nodiscard]] RgbImage load_color(FrameId id) const;
   [[nodiscard]] DepthImage load_depth(FrameId id) const;
+  [[nodiscard]] GrayImage load_right(FrameId id) const;
 
  private:
   struct Impl;

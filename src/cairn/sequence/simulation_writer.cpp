@@ -16,11 +16,11 @@ void make_folder(const fs::path& folder) {
         {folder.string(), 0, "to create the folder", error.message(), "Check the path and the disk."});
 }
 
-int write_frames(int count, const Executor& executor, Progress& progress,
+int write_frames(std::string_view stage, int count, const Executor& executor, Progress& progress,
                  const std::function<std::vector<fs::path>(int)>& write_frame) {
   std::vector<std::vector<fs::path>> written(static_cast<std::size_t>(count));
   int done = 0;
-  progress.start("simulate", count, "frames");
+  progress.start(stage, count, "frames");
   executor.ordered_pipeline<bool>(
       written.size(),
       [&](std::size_t i) {

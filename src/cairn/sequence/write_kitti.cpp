@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/core/text.h"
 #include "cairn/image/codec.h"
 #include "cairn/sequence/sensor_noise.h"
 
@@ -31,11 +33,27 @@ std::string format_poses(const Trajectory& truth) {
   return text;
 }
 
-std::string format_times(const Trajectory& truth) {
-  std::string text;
-  for (const StampedPose& pose : truth)
-    text += fmt::format("{:.9e}\n", 1e-9 * static_cast<double>(pose.stamp_ns));
-  return text;
+std::string format_calib(const Calibration& calibration) {
+  return format_projection("P0", calibration.camera, 0) +
+         format_projection("P1", calibration.camera, *calibration.baseline);
+}
+
+/// Writes left and right image of frame i; the paths written.
+std::vector<fs::path> write_pair(const fs::path& folder, int i, const GrayImage& left,
+                                 const GrayImage& right) {
+  const std::string name = fmt::format("{:06}.png", i);
+  std::vector<fs::path> written{folder / "image_0" / name, folder / "image_1" / name};
+  write_png(written[0], left);
+  write_png(written[1], right);
+  return written;
+}
+
+void expect_stereo(const Sequence& sequence) {
+  if (sequence.calibration.baseline && !sequence.frames.front().right.empty()) return;
+  throw InputError({sequence.folder.string(), 0, "a stereo sequence with both cameras calibrated",
+                    fmt::format("a sequence of format {}{}", sequence.format,
+                                sequence.calibration.baseline ? "" : " without 'right' in its calibration"),
+                    "Name a stereo sequence, or give --camera FILE (README, \"Calibration\")."});
 }
 
 }  // namespace
@@ -45,26 +63,51 @@ SimulationReport write_kitti(const SimulatedStreet& street, const fs::path& fold
   make_folder(folder / "image_0");
   make_folder(folder / "image_1");
   if (depth_truth) make_folder(folder / "depth_truth");
-  const int frames = write_frames(street.size(), executor, progress, [&](int i) {
+  const int frames = write_frames("simulate", street.size(), executor, progress, [&](int i) {
     const SimulatedStereoFrame frame = street.render(i);
-    const std::string name = fmt::format("{:06}.png", i);
-    std::vector<fs::path> written{folder / "image_0" / name, folder / "image_1" / name};
-    write_png(written[0], frame.left);
-    write_png(written[1], frame.right);
+    std::vector<fs::path> written = write_pair(folder, i, frame.left, frame.right);
     if (depth_truth) {
-      written.push_back(folder / "depth_truth" / name);
+      written.push_back(folder / "depth_truth" / written[0].filename());
       write_png(written[2], store_depth(frame.depth_true, kDepthScale));
     }
     return written;
   });
   const Trajectory whole = street.truth();
   const Trajectory truth(whole.begin(), whole.begin() + frames);
-  const Calibration calibration = street.calibration();
-  write_file(folder / "calib.txt", format_projection("P0", calibration.camera, 0) +
-                                       format_projection("P1", calibration.camera, *calibration.baseline));
-  write_file(folder / "times.txt", format_times(truth));
+  std::string times;
+  for (const StampedPose& pose : truth) times += format_stamp(pose.stamp_ns) + '\n';
+  write_file(folder / "calib.txt", format_calib(street.calibration()));
+  write_file(folder / "times.txt", times);
   write_file(folder / "poses.txt", format_poses(truth));
   return report_on(whole, frames);
+}
+
+RectifiedReport write_rectified(const Sequence& sequence, const fs::path& folder, const Executor& executor,
+                                Progress& progress) {
+  expect_stereo(sequence);
+  make_folder(folder / "image_0");
+  make_folder(folder / "image_1");
+  const FrameLoader loader(sequence);
+  RectifiedReport report;
+  const auto count = static_cast<int>(sequence.frames.size());
+  report.frames = write_frames("rectify", count, executor, progress, [&](int i) {
+    const Frame frame = loader.load(FrameId{i});
+    return write_pair(folder, i, frame.gray, frame.right);
+  });
+  report.stopped = report.frames < count;
+  const auto poses = sequence.truth ? poses_of_frames(sequence, {}) : std::vector<std::optional<Rigid3>>();
+  std::string times;
+  Trajectory truth;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(report.frames); ++i) {
+    const std::int64_t stamp_ns = sequence.frames[i].stamp_ns;
+    times += format_stamp(stamp_ns) + '\n';
+    if (!poses.empty() && poses[i]) truth.push_back({stamp_ns, *poses[i]});
+  }
+  report.has_poses = static_cast<int>(truth.size()) == report.frames;
+  write_file(folder / "calib.txt", format_calib(sequence.calibration));
+  write_file(folder / "times.txt", times);
+  if (report.has_poses) write_file(folder / "poses.txt", format_poses(truth));
+  return report;
 }
 
 }  // namespace cairn

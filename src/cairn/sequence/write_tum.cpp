@@ -39,7 +39,7 @@ SimulationReport write_tum(const SimulatedRoom& room, const fs::path& folder, co
                            Progress& progress) {
   make_folder(folder / "rgb");
   make_folder(folder / "depth");
-  const int frames = write_frames(room.size(), executor, progress, [&](int i) {
+  const int frames = write_frames("simulate", room.size(), executor, progress, [&](int i) {
     const SimulatedRgbdFrame frame = room.render(i);
     const fs::path color = folder / image_name("rgb", room.stamp_ns(i));
     const fs::path depth = folder / image_name("depth", room.stamp_ns(i));

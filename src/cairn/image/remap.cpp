@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/image/remap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/core/error.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kOne = 256;               // a whole pixel
+constexpr int kHalf = kOne * kOne / 2;  // rounds a sum of products of two shares
+constexpr int kShift = 16;
+constexpr std::size_t kRowsPerChunk = 32;
+
+struct Weights {
+  int upper_left, upper_right, lower_left, lower_right;
+};
+
+std::uint8_t blend(const Weights& weights, std::uint8_t upper_left, std::uint8_t upper_right,
+                   std::uint8_t lower_left, std::uint8_t lower_right) {
+  const int sum = weights.upper_left * upper_left + weights.upper_right * upper_right +
+                  weights.lower_left * lower_left + weights.lower_right * lower_right;
+  return static_cast<std::uint8_t>((sum + kHalf) >> kShift);
+}
+
+Rgb8 blend(const Weights& weights, const Rgb8& upper_left, const Rgb8& upper_right, const Rgb8& lower_left,
+           const Rgb8& lower_right) {
+  return {blend(weights, upper_left.r, upper_right.r, lower_left.r, lower_right.r),
+          blend(weights, upper_left.g, upper_right.g, lower_left.g, lower_right.g),
+          blend(weights, upper_left.b, upper_right.b, lower_left.b, lower_right.b)};
+}
+
+/// A coordinate as the first of two neighbouring pixels and the second one's share of 256.
+struct Place {
+  int first;
+  int share;
+};
+
+/// `coordinate` in [0, size - 1]; the last pixel is the second of the last two.
+Place place_of(double coordinate, int size) {
+  const auto fixed = static_cast<int>(std::lround(coordinate * kOne));
+  const int first = std::clamp(fixed / kOne, 0, std::max(0, size - 2));
+  return {first, fixed - first * kOne};
+}
+
+}  // namespace
+
+ImageRemap::ImageRemap(const Camera& source, const Camera& target,
+                       const Eigen::Quaterniond& source_from_target, const Executor& executor)
+    : source_width_(source.width), source_height_(source.height), origins_(target.width, target.height) {
+  require(source.width > 0 && source.height > 0, "the source camera has an image size");
+  const Eigen::Matrix3d rotation = source_from_target.toRotationMatrix();
+  executor.for_each_chunk(
+      static_cast<std::size_t>(target.height), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
+        for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
+          for (int u = 0; u < target.width; ++u) {
+            const auto ray = target.unproject({static_cast<double>(u), static_cast<double>(v)});
+            if (!ray) continue;
+            const auto pixel = source.project(rotation * ray->homogeneous());
+            if (pixel) origins_(u, v) = origin_of(*pixel);
+          }
+        }
+      });
+}
+
+ImageRemap::Origin ImageRemap::origin_of(const Eigen::Vector2d& pixel) const {
+  const double u_end = source_width_ - 1, v_end = source_height_ - 1;
+  const bool is_inside =
+      pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= u_end + 0.5 && pixel.y() <= v_end + 0.5;
+  if (!is_inside) return {};
+  const Place u = place_of(std::clamp(pixel.x(), 0.0, u_end), source_width_);
+  const Place v = place_of(std::clamp(pixel.y(), 0.0, v_end), source_height_);
+  return {v.first * source_width_ + u.first, static_cast<std::uint16_t>(u.share),
+          static_cast<std::uint16_t>(v.share)};
+}
+
+template <class Pixel>
+Image<Pixel> ImageRemap::remap(const Image<Pixel>& image, const Executor& executor) const {
+  require(image.width() == source_width_ && image.height() == source_height_,
+          "an image has the size of the source camera's");
+  Image<Pixel> result(origins_.width(), origins_.height());
+  const std::ptrdiff_t right = source_width_ > 1 ? 1 : 0;
+  const std::ptrdiff_t below = source_height_ > 1 ? source_width_ : 0;
+  const auto width = static_cast<std::size_t>(origins_.width());
+  executor.for_each_chunk(
+      static_cast<std::size_t>(origins_.height()), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin * width; i < end * width; ++i) {
+          const Origin& origin = origins_.data()[i];
+          if (origin.offset < 0) continue;
+          const Pixel* pixel = image.data() + origin.offset;
+          const int to_right = origin.right, to_below = origin.below;
+          const Weights weights{(kOne - to_right) * (kOne - to_below), to_right * (kOne - to_below),
+                                (kOne - to_right) * to_below, to_right * to_below};
+          result.data()[i] = blend(weights, pixel[0], pixel[right], pixel[below], pixel[right + below]);
+        }
+      });
+  return result;
+}
+
+GrayImage ImageRemap::operator()(const GrayImage& image, const Executor& executor) const {
+  return remap(image, executor);
+}
+
+RgbImage ImageRemap::operator()(const RgbImage& image, const Executor& executor) const {
+  return remap(image, executor);
+}
+
+ImageRemap undistortion(const Camera& camera, const Executor& executor) {
+  return {camera, camera.undistorted(), Eigen::Quaterniond::Identity(), executor};
+}
+
+}  // namespace cairn

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ASL layout of the EuRoC recordings (Burri et al. 2016): cam0 (left) and cam1 (right), each with
+// data.csv, which lists `stamp in nanoseconds, file name`, the images in data/ and sensor.yaml; perhaps the
+// body's true poses in state_groundtruth_estimate0/data.csv, `stamp, position, quaternion w x y z, ...`. All
+// may lie in a folder mav0. The images are raw.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cairn/core/error.h"
+#include "cairn/core/text.h"
+#include "cairn/sequence/asl_sensor.h"
+#include "cairn/sequence/association.h"
+#include "cairn/sequence/formats.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path root_of(const fs::path& folder) {
+  return fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
+}
+
+/// The stamp in a line's first field; stamps increase.
+std::int64_t stamp_in(const TextFile& file, const TextLine& line, const std::int64_t* before) {
+  std::int64_t stamp_ns = 0;
+  if (!parse_integer(line.fields[0], stamp_ns)) {
+    file.fail(line, "a time stamp in whole nanoseconds", fmt::format("'{}'", line.fields[0]),
+              "Mend or delete the line.");
+  }
+  if (before != nullptr && stamp_ns <= *before) {
+    file.fail(line, fmt::format("a time stamp after {}", *before), fmt::format("{}", stamp_ns),
+              "Sort the file by time and remove double stamps.");
+  }
+  return stamp_ns;
+}
+
+/// One camera's images, as its data.csv lists them.
+struct ImageList {
+  std::vector<std::int64_t> stamps;
+  std::vector<fs::path> paths;
+};
+
+ImageList read_images(const fs::path& camera_folder) {
+  const TextFile file(camera_folder / "data.csv", Separator::commas);
+  ImageList images;
+  for (const TextLine& line : file.lines()) {
+    file.expect_fields(line, 2, "stamp in nanoseconds, file name");
+    images.stamps.push_back(stamp_in(file, line, images.stamps.empty() ? nullptr : &images.stamps.back()));
+    images.paths.push_back(camera_folder / "data" / std::string(line.fields[1]));
+  }
+  return images;
+}
+
+void pair_images(const fs::path& root, double max_gap_s, Sequence& sequence) {
+  const ImageList left = read_images(root / "cam0"), right = read_images(root / "cam1");
+  const auto pairs = associate_stamps(left.stamps, right.stamps, std::llround(max_gap_s * 1e9));
+  SequenceReport& report = sequence.report;
+  for (const auto& [l, r] : pairs) {
+    const auto number = static_cast<std::int64_t>(sequence.frames.size());
+    sequence.frames.push_back({left.stamps[l], number, left.paths[l], {}, right.paths[r]});
+    const double gap_s = 1e-9 * std::abs(static_cast<double>(left.stamps[l] - right.stamps[r]));
+    report.max_stamp_gap_s = std::max(report.max_stamp_gap_s, gap_s);
+  }
+  report.color_images = static_cast<std::int64_t>(left.stamps.size());
+  report.right_images = static_cast<std::int64_t>(right.stamps.size());
+  report.associated = static_cast<std::int64_t>(pairs.size());
+  report.associated_by = "time, nearest stamp";
+  if (!pairs.empty() || left.stamps.empty()) return;
+  throw InputError({(root / "cam1/data.csv").string(), 0,
+                    fmt::format("images within {} s of those in cam0/data.csv", max_gap_s), "none",
+                    "Check that both cameras have one clock."});
+}
+
+Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
+  constexpr std::string_view kLayout = "stamp, px, py, pz, qw, qx, qy, qz, ...";
+  const std::size_t given = line.fields.size();
+  if (given < 8) file.expect_fields(line, 8, kLayout);
+  const auto value = [&](std::size_t i, std::string_view name) { return file.number(line, i, name); };
+  const Eigen::Quaterniond rotation(value(4, "qw"), value(5, "qx"), value(6, "qy"), value(7, "qz"));
+  constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout of the columns does not
+  if (!(std::abs(rotation.norm() - 1.0) <= kMaxDeviation)) {
+    file.fail(line, "a quaternion of length 1", fmt::format("one of length {:.4g}", rotation.norm()),
+              fmt::format("Check the order of the columns: {}.", kLayout));
+  }
+  return {rotation.normalized(), {value(1, "px"), value(2, "py"), value(3, "pz")}};
+}
+
+/// Poses of the left camera, before rectification.
+Trajectory read_truth(const fs::path& truth_folder, const Rigid3& body_from_left) {
+  const fs::path sensor = truth_folder / "sensor.yaml";
+  const Rigid3 body_from_tracked = fs::exists(sensor) ? read_body_from_sensor(sensor) : Rigid3{};
+  const Rigid3 tracked_from_left = body_from_tracked.inverse() * body_from_left;
+  const TextFile file(truth_folder / "data.csv", Separator::commas);
+  Trajectory truth;
+  for (const TextLine& line : file.lines()) {
+    const std::int64_t stamp_ns = stamp_in(file, line, truth.empty() ? nullptr : &truth.back().stamp_ns);
+    truth.push_back({stamp_ns, parse_pose(file, line) * tracked_from_left});
+  }
+  return truth;
+}
+
+}  // namespace
+
+bool is_euroc(const fs::path& folder) {
+  const fs::path camera = root_of(folder) / "cam0";
+  return fs::exists(camera / "data.csv") || fs::exists(camera / "sensor.yaml");
+}
+
+void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
+  sequence.format = "EuRoC";
+  const fs::path root = root_of(folder);
+  pair_images(root, options.max_stamp_gap_s, sequence);
+  const fs::path left = root / "cam0/sensor.yaml", right = root / "cam1/sensor.yaml";
+  if (sequence.calibration_source.empty()) {
+    const Rigid3 left_from_right = read_body_from_sensor(left).inverse() * read_body_from_sensor(right);
+    set_raw_stereo({read_asl_camera(left), read_asl_camera(right), left_from_right}, {right.string()},
+                   sequence.calibration);
+    sequence.calibration_source = fmt::format("{} and cam1", left.string());
+  }
+  const fs::path truth = root / "state_groundtruth_estimate0";
+  if (fs::exists(truth / "data.csv")) sequence.truth = read_truth(truth, read_body_from_sensor(left));
+}
+
+}  // namespace cairn
