@@ -138,7 +138,7 @@ bench() {
 }
 
 tidy() {
-  need "${packages_build[@]}" "${packages_tidy[@]}"
+  need "${packages_build[@]}" "${packages_bench[@]}" "${packages_tidy[@]}"
   configure tidy
   ninja -C build/tidy build.ninja >/dev/null  # where the build description changed
   python3 tests/run_tidy.py --build build/tidy "$@"

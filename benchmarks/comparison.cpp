@@ -54,6 +54,7 @@ const char* verdict(bool held) {
 }
 
 std::string limit_of(const TimedComparison& comparison) {
+  if (comparison.threads > 1) return "";
   if (comparison.at_most_ms) return fmt::format("{} ms", *comparison.at_most_ms);
   return comparison.at_most_share ? fmt::format("1/{:.3g}", 1 / *comparison.at_most_share) : "";
 }
@@ -63,13 +64,14 @@ bool print_row(const TimedComparison& comparison, const MedianReporter& medians)
   const auto ours = medians.median_ms(name_of(comparison, kOurs));
   const auto peers = medians.median_ms(name_of(comparison, kPeers));
   if (!ours) return true;  // filtered out
+  const std::string limit = limit_of(comparison);
   bool held = true;
   if (comparison.at_most_ms) held = *ours <= *comparison.at_most_ms;
   if (comparison.at_most_share && peers) held = held && *ours <= *comparison.at_most_share * *peers;
   fmt::print("| {} | {} | {:.3g} | {} | {} | {} | {} |\n", comparison.work, comparison.threads, *ours,
              peers ? fmt::format("{:.3g}", *peers) : "", peers ? fmt::format("1/{:.1f}", *peers / *ours) : "",
-             limit_of(comparison), limit_of(comparison).empty() ? "" : verdict(held));
-  return held;
+             limit, limit.empty() ? "" : verdict(held));
+  return held || limit.empty();
 }
 
 bool print_row(const QualityComparison& comparison) {
@@ -84,7 +86,7 @@ bool print_row(const QualityComparison& comparison) {
     limit = fmt::format("at most {}", *comparison.at_most);
   }
   fmt::print("| {} | {:.4g} | {} | {} | {} |\n", comparison.work, comparison.ours,
-             comparison.at_most ? "" : fmt::format("{:.4g}", comparison.peers), limit,
+             comparison.at_least_share ? fmt::format("{:.4g}", comparison.peers) : "", limit,
              limit.empty() ? "" : verdict(held));
   return held;
 }

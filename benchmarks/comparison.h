@@ -11,6 +11,7 @@ namespace cairn::bench {
 using Work = std::function<void()>;
 
 /// The same work done by cairn and by a peer, timed in one process with the repetitions of both interleaved.
+/// The limits are those of one thread.
 struct TimedComparison {
   std::string work;  ///< "ORB 1000, 640x480"
   int threads = 1;   ///< 1: processor time is compared; more: wall time

@@ -65,7 +65,7 @@ double block_disparity(const GrayImage& left, const GrayImage& right, const Pixe
   return static_cast<double>(d) + (curvature > 0 ? (before - after) / (2 * curvature) : 0);
 }
 
-std::function<std::optional<Pixel>(const Pixel&)> place_by(const Camera& camera, DepthAt depth,
+std::function<std::optional<Pixel>(const Pixel&)> place_by(const Camera& camera, const DepthAt& depth,
                                                            const Rigid3& second_from_first) {
   return [=](const Pixel& pixel) -> std::optional<Pixel> {
     const double metres = depth(pixel);

@@ -11,7 +11,7 @@ endif()
 function(cairn_kernels room)
   set(flags_plain "")
   set(flags_sse42 -msse4.2 -mpopcnt)
-  set(flags_avx2 ${flags_sse42} -mavx2 -mbmi -mbmi2 -mlzcnt)
+  set(flags_avx2 ${flags_sse42} -mavx2 -mbmi -mbmi2)
   set(flags_avx512 ${flags_avx2} -mavx512f -mavx512bw -mavx512vl -mavx512dq -mavx512vbmi -mavx512vnni
       -mavx512bitalg -mavx512vpopcntdq -mprefer-vector-width=512)
   set(sets plain)

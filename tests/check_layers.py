@@ -103,7 +103,7 @@ def check_file(path, room, is_public):
         if not match:
             continue
         library, own = match.groups()
-        is_test = path.name.endswith("_test.cpp")
+        is_test = path.name.endswith("_test.cpp") or path.name.startswith("test_")
         complaint = (complaint_about_room(own, room) if own
                      else complaint_about_library(library, room, is_test, is_public))
         if complaint:

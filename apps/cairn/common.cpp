@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <thread>
+
+#include "cairn/core/text.h"
 
 namespace cairn::app {
 namespace {
@@ -136,8 +139,38 @@ void add_sequence_options(CLI::App& app, SequenceArguments& arguments) {
 
 namespace {
 
-/// What CLI11 says; where one of several subcommands is wanted, which.
+/// Every option of a command and of its subcommands, as they are written.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* command : app.get_subcommands({}))
+    for (std::string& name : option_names(*command)) names.push_back(std::move(name));
+  return names;
+}
+
+/// The first argument that looks like an option and is none; empty where there is no such.
+std::string unknown_option(const CLI::App& app, int argc, char** argv) {
+  const std::vector<std::string> names = option_names(app);
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::string name = argument.substr(0, argument.find('='));
+    if (name.rfind("--", 0) == 0 && name.size() > 2 &&
+        std::find(names.begin(), names.end(), name) == names.end())
+      return name;
+  }
+  return "";
+}
+
+/// What CLI11 says; where an option is misspelt, which it may be; where one of several subcommands is wanted,
+/// which.
 std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (const std::string name = unknown_option(app, argc, argv); !name.empty()) {
+    const std::string nearest = nearest_name(name, option_names(app));
+    const bool alike = edit_distance(name, nearest) <= name.size() / 3;
+    return fmt::format("there is no option {}.{}", name,
+                       alike ? fmt::format(" Did you mean {}?", nearest) : "");
+  }
   if (app.get_require_subcommand_min() == 0 || !app.get_subcommands().empty()) return error.what();
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());

@@ -9,12 +9,13 @@
 namespace cairn::app {
 
 std::unique_ptr<Extractor> FeatureArguments::extractor() const {
-  return make_extractor({method, method, count});
+  const bool root = CLI::detail::to_lower(method) == "rootsift";
+  return make_extractor({root ? "SIFT" : method, method, count});
 }
 
 void add_feature_options(CLI::App& app, FeatureArguments& arguments) {
-  app.add_option("--method", arguments.method, "ORB and SIFT are cairn's own, the others OpenCV's")
-      ->check(CLI::IsMember(detector_names(), CLI::ignore_case))
+  app.add_option("--method", arguments.method, "ORB, SIFT and ROOTSIFT are cairn's own, the others OpenCV's")
+      ->check(CLI::IsMember(descriptor_names(), CLI::ignore_case))
       ->type_name("NAME")
       ->capture_default_str();
   app.add_option("--count", arguments.count, "at most so many features of an image")

@@ -28,10 +28,14 @@ void declare(CLI::App& app, SlamArguments& arguments) {
   app.add_flag("--no-octree", arguments.no_octree, "write no octree");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
-  app.footer(
-      "Example: cairn slam demo/room -o demo/run\n"
-      "         cairn slam SEQ -o RUN --set features=1500 --set keyframe_threshold=0.2\n"
-      "The README lists the parameters; RUN/config.yaml holds those of a run.");
+  app.footer([] {
+    return "Example: cairn slam demo/room -o demo/run\n"
+           "         cairn slam SEQ -o RUN --set features=1500 --set keyframe_threshold=0.2\n"
+           "Parameters for --set and --config with their defaults; the README says what they mean, and "
+           "RUN/config.yaml "
+           "holds those of a run:\n" +
+           SlamParameters().table().format();
+  });
 }
 
 SlamParameters gather_parameters(const SlamArguments& arguments) {

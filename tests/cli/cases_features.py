@@ -9,7 +9,7 @@ A, B = file("a.png", png_bytes(kind="gray8")), file("b.png", png_bytes())
 TINY = file("tiny.png", png_bytes(1, 1, kind="gray8"))
 THIN = file("thin.png", png_bytes(1, 200, kind="gray8"))
 DEEP = file("deep.png", png_bytes(kind="gray16", value=2000))
-METHODS = ("orb", "sift", "opencv_orb", "opencv_sift", "akaze", "brisk")
+METHODS = ("orb", "sift", "rootsift", "opencv_orb", "opencv_sift", "akaze", "brisk")
 
 CASES = [
     Case("features", "features a.png b.png", given=(A, B), code=0, prints=("a.png  64x48", "b.png  64x48", "keypoints", "ms")),

@@ -31,6 +31,9 @@ CASES = [
     Case("full disk keeps the earlier result", "simulate room -o out --frames-count 3 --threads 2", ("File too large",),
          (folder("out"), file("out/.cairn", "sequence: written by cairn\n"), file("out/rgb.txt", "old\n")),
          file_limit=4096),
+    Case("option with a letter missing", "slam seq -o run --thread 2", ("there is no option --thread. Did you mean --threads?",)),
+    Case("option that is like none", "simulate room -o room --fps 3", ("there is no option --fps.\n",)),
+    Case("option of a subcommand misspelt", "simulate room -o room --sead=3", ("there is no option --sead. Did you mean --seed?",)),
 ]
 
 if __name__ == "__main__":

@@ -47,6 +47,9 @@ class TextFile {
 /// Nanoseconds as seconds with nine decimals.
 [[nodiscard]] std::string format_stamp(std::int64_t stamp_ns);
 
+/// Letters to put in, take out or replace until one word is the other (Levenshtein).
+[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
+
 /// The element of `known` with the smallest edit distance to `word`, for "did you mean".
 [[nodiscard]] std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
 

@@ -171,5 +171,12 @@ TEST_F(TextFileTest, names_the_line_with_a_wrong_number_of_fields) {
             ":1: expected 2 values (a b), found 3.\n  Mend or delete the line.");
 }
 
+TEST(EditDistance, counts_letters) {
+  EXPECT_EQ(edit_distance("", ""), 0U);
+  EXPECT_EQ(edit_distance("abc", ""), 3U);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3U);
+  EXPECT_EQ(edit_distance("--thread", "--threads"), 1U);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -9,6 +9,7 @@
 #include "cairn/core/text.h"
 #include "cairn/features/opencv_extractor.h"
 #include "cairn/features/orb.h"
+#include "cairn/features/sift.h"
 
 namespace cairn {
 namespace {
@@ -20,7 +21,7 @@ std::string upper(std::string text) {
 }
 
 bool is_own(const std::string& upper_name) {
-  return upper_name == "ORB" || upper_name == "SIFT";
+  return upper_name == "ORB" || upper_name == "SIFT" || upper_name == "ROOTSIFT";
 }
 
 void check_name(const std::string& option, const std::string& name, const std::vector<std::string>& known) {
@@ -32,7 +33,7 @@ void check_name(const std::string& option, const std::string& name, const std::v
 /// AKAZE describes only its own keypoints, ORB needs levels that SIFT's octaves are not, and ours describe
 /// what they detect.
 bool fit_together(const std::string& detector, const std::string& descriptor) {
-  if (detector == descriptor) return true;
+  if (detector == descriptor || (detector == "SIFT" && descriptor == "ROOTSIFT")) return true;
   if (is_own(detector) || is_own(descriptor) || descriptor == "AKAZE") return false;
   return !(detector == "OPENCV_SIFT" && descriptor == "OPENCV_ORB");
 }
@@ -45,7 +46,9 @@ const std::vector<std::string>& detector_names() {
 }
 
 const std::vector<std::string>& descriptor_names() {
-  return detector_names();
+  static const std::vector<std::string> kNames{"ORB",         "SIFT",  "ROOTSIFT", "OPENCV_ORB",
+                                               "OPENCV_SIFT", "AKAZE", "BRISK"};
+  return kNames;
 }
 
 void FeatureOptions::validate() const {
@@ -70,6 +73,12 @@ std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {
     OrbOptions orb;
     orb.count = options.count;
     return make_orb_extractor(orb);
+  }
+  if (named.detector == "SIFT") {
+    SiftOptions sift;
+    sift.count = options.count;
+    sift.root = named.descriptor == "ROOTSIFT";
+    return make_sift_extractor(sift);
   }
   return make_opencv_extractor(named);
 }

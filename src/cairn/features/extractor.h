@@ -11,8 +11,8 @@
 
 namespace cairn {
 
-/// ORB and SIFT are cairn's own and describe only what they detect; OPENCV_ORB, OPENCV_SIFT, AKAZE and BRISK
-/// are OpenCV's and go together in any pair that fits. Case does not matter.
+/// ORB and SIFT are cairn's own and describe only what they detect, SIFT also as ROOTSIFT; OPENCV_ORB,
+/// OPENCV_SIFT, AKAZE and BRISK are OpenCV's and go together in any pair that fits. Case does not matter.
 struct FeatureOptions {
   std::string detector = "ORB";    ///< see detector_names()
   std::string descriptor = "ORB";  ///< see descriptor_names()

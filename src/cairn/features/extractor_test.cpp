@@ -73,6 +73,15 @@ TEST(Extractor, a_detector_may_have_another_descriptor) {
   EXPECT_EQ(features.keypoints.size(), features.descriptors.count());
 }
 
+TEST(Extractor, sift_may_be_described_as_rootsift) {
+  const GrayImage image = squares(320, 240, 3);
+  const Features plain = make_extractor({"sift", "sift", 100})->extract(image);
+  const Features root = make_extractor({"sift", "rootsift", 100})->extract(image);
+  ASSERT_EQ(plain.keypoints.size(), root.keypoints.size());
+  EXPECT_EQ(root.descriptors.norm(), Norm::l2);
+  EXPECT_NE(std::memcmp(plain.descriptors.row(0), root.descriptors.row(0), plain.descriptors.bytes()), 0);
+}
+
 std::string message_of(const FeatureOptions& options) {
   try {
     options.validate();
@@ -88,6 +97,9 @@ TEST(FeatureOptions, name_what_is_wrong) {
             "you mean 'ORB'?");
   EXPECT_EQ(message_of({"ORB", "AKAZE", 100}),
             "descriptor: expected a descriptor that can describe ORB keypoints, found 'AKAZE'.\n  Set "
+            "descriptor to ORB.");
+  EXPECT_EQ(message_of({"ORB", "ROOTSIFT", 100}),
+            "descriptor: expected a descriptor that can describe ORB keypoints, found 'ROOTSIFT'.\n  Set "
             "descriptor to ORB.");
   EXPECT_EQ(message_of({"ORB", "ORB", 0}),
             "features: expected at least 1 feature per image, found 0.\n  The default is 1000.");

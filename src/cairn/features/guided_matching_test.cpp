@@ -56,7 +56,7 @@ struct TwoViews {
       const auto seen = train_camera.project(train_from_query * *point);
       if (!seen || !train_camera.contains(*seen)) continue;
       in_query.push_back(pixel);
-      in_train.push_back(*seen + Eigen::Vector2d(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7)));
+      in_train.emplace_back(*seen + Eigen::Vector2d(random.uniform(-0.7, 0.7), random.uniform(-0.7, 0.7)));
     }
   }
 

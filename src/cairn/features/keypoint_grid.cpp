@@ -43,8 +43,9 @@ KeypointGrid::KeypointGrid(const std::vector<Keypoint>& keypoints) : keypoints_(
 /// Counting sort: within a cell, indices ascend.
 void KeypointGrid::fill() {
   const auto cell = [&](const Keypoint& keypoint) {
-    return static_cast<std::size_t>(row_of(static_cast<double>(keypoint.v)) * columns_ +
-                                    column_of(static_cast<double>(keypoint.u)));
+    const auto row = static_cast<std::size_t>(row_of(static_cast<double>(keypoint.v)));
+    const auto column = static_cast<std::size_t>(column_of(static_cast<double>(keypoint.u)));
+    return row * static_cast<std::size_t>(columns_) + column;
   };
   begins_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (const Keypoint& keypoint : keypoints_)

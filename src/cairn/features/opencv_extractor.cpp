@@ -16,10 +16,10 @@ constexpr double kOrbScale = 1.2;   // between pyramid levels
 /// OpenCV's objects keep state while they work, so each extraction makes its own: microseconds beside
 /// milliseconds.
 cv::Ptr<cv::Feature2D> make_opencv(const std::string& name, int count) {
-  if (name.ends_with("ORB"))
+  if (name == "OPENCV_ORB")
     return cv::ORB::create(count, static_cast<float>(kOrbScale), 8, static_cast<int>(kOrbPatch), 0, 2,
                            cv::ORB::HARRIS_SCORE, static_cast<int>(kOrbPatch), kFastThreshold);
-  if (name.ends_with("SIFT")) return cv::SIFT::create(count);
+  if (name == "OPENCV_SIFT") return cv::SIFT::create(count);
   if (name == "AKAZE") return cv::AKAZE::create();
   return cv::BRISK::create();
 }
@@ -72,15 +72,13 @@ class OpencvExtractor : public Extractor {
     }
     Features features;
     for (const cv::KeyPoint& keypoint : keypoints)
-      features.keypoints.push_back(from_opencv(keypoint, detector_.ends_with("ORB")));
+      features.keypoints.push_back(from_opencv(keypoint, detector_ == "OPENCV_ORB"));
     features.descriptors = from_opencv(rows);
     return features;
   }
 
  private:
-  [[nodiscard]] bool limits_itself() const {
-    return detector_.ends_with("ORB") || detector_.ends_with("SIFT");
-  }
+  [[nodiscard]] bool limits_itself() const { return detector_ == "OPENCV_ORB" || detector_ == "OPENCV_SIFT"; }
 
   std::string detector_, descriptor_;
   int count_;

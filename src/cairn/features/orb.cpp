@@ -104,19 +104,23 @@ struct Selected {
   float harris = 0;
 };
 
-std::vector<Selected> select(std::vector<Corner> corners, int count, const GrayImage& image,
-                             double crowding) {
+/// At most `count` corners, the strongest first.
+std::vector<Selected> select(std::vector<Corner> corners, int count, const GrayImage& image) {
   drop_weakest(corners, count);
-  std::vector<Candidate> candidates;
-  candidates.reserve(corners.size());
+  std::vector<Selected> strongest_first;
+  strongest_first.reserve(corners.size());
   for (const Corner& corner : corners)
-    candidates.push_back({static_cast<float>(corner.u), static_cast<float>(corner.v),
-                          harris_measure(image, corner.u, corner.v)});
+    strongest_first.push_back({corner.u, corner.v, harris_measure(image, corner.u, corner.v)});
+  std::stable_sort(strongest_first.begin(), strongest_first.end(),
+                   [](const Selected& a, const Selected& b) { return a.harris > b.harris; });
+  std::vector<ImagePlace> places;
+  places.reserve(corners.size());
+  for (const Selected& corner : strongest_first)
+    places.push_back({static_cast<float>(corner.u), static_cast<float>(corner.v)});
   std::vector<Selected> selected;
-  for (const std::int32_t index : select_spread(candidates, count, image.width(), image.height(), crowding)) {
-    const auto i = static_cast<std::size_t>(index);
-    selected.push_back({corners[i].u, corners[i].v, candidates[i].strength});
-  }
+  for (const std::size_t i :
+       select_spread(places, image.width(), image.height(), static_cast<std::size_t>(count)))
+    selected.push_back(strongest_first[i]);
   return selected;
 }
 
@@ -131,7 +135,7 @@ std::vector<std::vector<Selected>> corners_of(const ImagePyramid& pyramid, const
     corners.push_back(detect_fast(level.image, fast, executor));
   const std::vector<int> quota = quotas(corners, options.count, options.scale);
   return executor.map<std::vector<Selected>>(corners.size(), [&](std::size_t l) {
-    return select(std::move(corners[l]), quota[l], pyramid.levels[l].image, options.crowding);
+    return select(std::move(corners[l]), quota[l], pyramid.levels[l].image);
   });
 }
 

@@ -21,7 +21,6 @@ struct OrbOptions {
   double scale = 1.2;       ///< from level to level, in (1, 1.8]
   int threshold = 20;       ///< FAST's, grey levels, [1, 254]
   int retry_threshold = 7;  ///< in cells of 32 pixels without a corner; [1, threshold]
-  double crowding = 8;      ///< see select_spread
 };
 
 /// Finds and describes keypoints; none where the image is smaller than a patch (37 pixels along a side).

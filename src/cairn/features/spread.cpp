@@ -3,60 +3,74 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace cairn {
 namespace {
 
-/// Square cells over the image.
-class Cells {
- public:
-  Cells(int width, int height, double wanted)
-      : side_(std::max(1.0, std::sqrt(static_cast<double>(width) * height / wanted))),
-        columns_(static_cast<int>(std::ceil(width / side_))),
-        rows_(static_cast<int>(std::ceil(height / side_))) {}
+constexpr double kPointsPerCell = 20;  // on average: few enough for cells to be small, enough to choose from
+constexpr double kGranted = 0.5;       // of these, to each cell; the rest goes by strength
 
-  [[nodiscard]] std::size_t count() const {
-    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  }
-  [[nodiscard]] std::size_t of(const Candidate& candidate) const {
-    const int column =
-        std::clamp(static_cast<int>(static_cast<double>(candidate.u) / side_), 0, columns_ - 1);
-    const int row = std::clamp(static_cast<int>(static_cast<double>(candidate.v) / side_), 0, rows_ - 1);
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
+/// Cells of the image, about square.
+class Grid {
+ public:
+  Grid(int width, int height, double cells)
+      : width_(width),
+        height_(height),
+        columns_(at_least_one(std::sqrt(cells * width / height))),
+        rows_(at_least_one(cells / static_cast<double>(columns_))) {}
+  [[nodiscard]] std::size_t count() const { return columns_ * rows_; }
+  [[nodiscard]] std::size_t cell_of(const ImagePlace& place) const {
+    return index(static_cast<double>(place.v) / height_, rows_) * columns_ +
+           index(static_cast<double>(place.u) / width_, columns_);
   }
 
  private:
-  double side_;
-  int columns_, rows_;
+  static std::size_t at_least_one(double number) {
+    return static_cast<std::size_t>(std::max(1L, std::lround(number)));
+  }
+  static std::size_t index(double share, std::size_t cells) {
+    return std::min(cells - 1, static_cast<std::size_t>(share * static_cast<double>(cells)));
+  }
+
+  int width_, height_;
+  std::size_t columns_, rows_;
 };
+
+/// Marks the strongest `granted` of each cell; how many these are.
+std::size_t grant(const Grid& grid, const std::vector<ImagePlace>& places, std::size_t granted,
+                  std::vector<bool>& kept) {
+  std::vector<std::size_t> taken(grid.count());
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    std::size_t& in_cell = taken[grid.cell_of(places[i])];
+    if (in_cell == granted) continue;
+    ++in_cell;
+    ++total;
+    kept[i] = true;
+  }
+  return total;
+}
 
 }  // namespace
 
-std::vector<std::int32_t> select_spread(std::span<const Candidate> candidates, int count, int width,
-                                        int height, double crowding) {
-  std::vector<std::int32_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto wanted = static_cast<std::size_t>(std::max(count, 0));
-  if (candidates.size() <= wanted) return order;
-  const auto strength = [&](std::int32_t i) { return candidates[static_cast<std::size_t>(i)].strength; };
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return strength(a) != strength(b) ? strength(a) > strength(b) : a < b;
-  });
-  constexpr double kPerCell = 5;  // fewer would leave too little to choose from in a cell
-  const Cells cells(width, height, std::max(1.0, count / kPerCell));
-  const int quota = static_cast<int>(std::ceil(crowding * count / static_cast<double>(cells.count())));
-  std::vector<int> taken(cells.count());
-  std::vector<std::int32_t> chosen, rest;
-  for (const std::int32_t i : order) {
-    int& used = taken[cells.of(candidates[static_cast<std::size_t>(i)])];
-    (chosen.size() < wanted && used < quota ? chosen : rest).push_back(i);
-    ++used;
+std::vector<std::size_t> select_spread(const std::vector<ImagePlace>& places, int width, int height,
+                                       std::size_t count) {
+  std::vector<bool> kept(places.size(), places.size() <= count);
+  std::size_t total = std::min(places.size(), count);
+  if (places.size() > count) {
+    const Grid grid(width, height, static_cast<double>(count) / kPointsPerCell);
+    total = grant(
+        grid, places,
+        static_cast<std::size_t>(kGranted * static_cast<double>(count) / static_cast<double>(grid.count())),
+        kept);
   }
-  for (std::size_t i = 0; chosen.size() < wanted; ++i) chosen.push_back(rest[i]);
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
+  std::vector<std::size_t> selected;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!kept[i] && total == count) continue;
+    if (!kept[i]) ++total;
+    selected.push_back(i);
+  }
+  return selected;
 }
 
 }  // namespace cairn

@@ -40,12 +40,18 @@ struct Rows {
       const Keypoint& keypoint = keypoints[static_cast<std::size_t>(i)];
       u.push_back(keypoint.u), v.push_back(keypoint.v);
       size.push_back(keypoint.size), sigma.push_back(keypoint.sigma_px);
-      max_sigma = std::max(max_sigma, keypoint.sigma_px);
     }
     for (int row = 0; row <= height; ++row)
       begins.push_back(static_cast<std::size_t>(
           std::lower_bound(v.begin(), v.end(), static_cast<float>(row)) - v.begin()));
     begins.front() = 0;  // half a pixel above the first row is in the image
+    rank_by_size();
+  }
+
+  /// The largest sigma of the keypoints up to this size; 0 where there is none.
+  [[nodiscard]] float max_sigma_up_to(float largest_size) const {
+    const auto end = std::upper_bound(sizes.begin(), sizes.end(), largest_size);
+    return end == sizes.begin() ? 0 : max_sigmas[static_cast<std::size_t>(end - sizes.begin()) - 1];
   }
 
   /// Begin and end of the places that hold all keypoints between two heights, and few others.
@@ -59,7 +65,20 @@ struct Rows {
   std::vector<std::int32_t> order;
   std::vector<float> u, v, size, sigma;
   std::vector<std::size_t> begins;  // of the keypoints at or below each row
-  float max_sigma = 0;
+
+ private:
+  void rank_by_size() {
+    std::vector<std::pair<float, float>> ranked;
+    for (std::size_t i = 0; i < size.size(); ++i) ranked.emplace_back(size[i], sigma[i]);
+    std::sort(ranked.begin(), ranked.end());
+    float largest = 0;
+    for (const auto& [size_px, sigma_px] : ranked) {
+      largest = std::max(largest, sigma_px);
+      sizes.push_back(size_px), max_sigmas.push_back(largest);
+    }
+  }
+
+  std::vector<float> sizes, max_sigmas;  // ascending, and the largest sigma up to each
 };
 
 /// Which right features a left one may match.
@@ -80,7 +99,9 @@ class StereoSearch {
   void find(std::size_t l, Candidates& candidates) const {
     const Keypoint& keypoint = left_.keypoints[l];
     if (!is_usable(keypoint, height_)) return;
-    const float reach = row_band_ * std::max(keypoint.sigma_px, rows_.max_sigma);
+    // What is much larger cannot match, and would widen the band for all.
+    const float reach =
+        row_band_ * std::max(keypoint.sigma_px, rows_.max_sigma_up_to(max_size_ratio_ * keypoint.size));
     const auto [first, last] = rows_.between(keypoint.v - reach, keypoint.v + reach);
     if (first == last) return;
     const std::size_t group = first / kPackedLanes, end_group = (last + kPackedLanes - 1) / kPackedLanes;

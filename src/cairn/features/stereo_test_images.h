@@ -36,9 +36,13 @@ class Waves {
   std::vector<Wave> waves_;
 };
 
-/// disparity = at_centre + slope_u (u - width / 2) + slope_v (v - height / 2).
+/// A surface whose disparity changes linearly from that in the middle of the image.
 struct Surface {
   double at_centre = 0, slope_u = 0, slope_v = 0;
+
+  [[nodiscard]] double disparity(const GrayImage& image, double u, double v) const {
+    return at_centre + slope_u * (u - 0.5 * image.width()) + slope_v * (v - 0.5 * image.height());
+  }
 };
 
 struct TestPair {
@@ -57,8 +61,7 @@ inline TestPair make_pair(int width, int height, const Surface& surface, const W
   Random random(17);
   for (int v = 0; v < height; ++v) {
     for (int u = 0; u < width; ++u) {
-      const double disparity =
-          surface.at_centre + surface.slope_u * (u - width / 2) + surface.slope_v * (v - height / 2);
+      const double disparity = surface.disparity(pair.left, u, v);
       pair.left(u, v) = to_gray(110 + waves.at(u - disparity, v) + deviation * random.normal());
       pair.right(u, v) = to_gray(gain * (110 + waves.at(u, v)) + deviation * random.normal());
     }

@@ -30,16 +30,22 @@ DepthRegistration::DepthRegistration(const Camera& depth_camera, const Camera& c
 }
 
 void DepthRegistration::cast_rays(const Eigen::Matrix3d& rotation) {
+  const Eigen::Index count = Eigen::Index{depth_camera_.width} * depth_camera_.height;
+  for (Eigen::ArrayXd* array : {&rays_.x, &rays_.y, &rays_.z}) array->resize(count);
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
-  const Eigen::Vector2d magnification(color_camera_.fx / depth_camera_.fx,
-                                      color_camera_.fy / depth_camera_.fy);
   for (int v = 0; v < depth_camera_.height; ++v) {
     for (int u = 0; u < depth_camera_.width; ++u) {
       const Eigen::Vector2d ray =
           depth_camera_.unproject({static_cast<double>(u), static_cast<double>(v)}).value_or(none);
-      rays_.push_back({rotation * ray.homogeneous(), 0.5 * magnification});
+      const Eigen::Vector3d rotated = rotation * ray.homogeneous();
+      const Eigen::Index i = Eigen::Index{v} * depth_camera_.width + u;
+      rays_.x[i] = rotated.x();
+      rays_.y[i] = rotated.y();
+      rays_.z[i] = rotated.z();
     }
   }
+  rays_.half_u.setConstant(count, 0.5 * color_camera_.fx / depth_camera_.fx);
+  rays_.half_v.setConstant(count, 0.5 * color_camera_.fy / depth_camera_.fy);
 }
 
 /// The bounding box of a depth pixel in the colour image, from where its neighbours fall; at the border and
@@ -47,39 +53,76 @@ void DepthRegistration::cast_rays(const Eigen::Matrix3d& rotation) {
 void DepthRegistration::measure_spans() {
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   Image<Eigen::Vector2d> pixels(depth_camera_.width, depth_camera_.height, none);
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    pixels.data()[i] = color_camera_.project(rays_[i].rotated).value_or(none);
+  for (Eigen::Index i = 0; i < rays_.x.size(); ++i)
+    pixels.data()[i] = color_camera_.project({rays_.x[i], rays_.y[i], rays_.z[i]}).value_or(none);
   for (int v = 1; v + 1 < pixels.height(); ++v) {
     for (int u = 1; u + 1 < pixels.width(); ++u) {
       const Eigen::Vector2d along_row = pixels(u + 1, v) - pixels(u - 1, v);
       const Eigen::Vector2d along_column = pixels(u, v + 1) - pixels(u, v - 1);
       const Eigen::Vector2d half_span = 0.25 * (along_row.cwiseAbs() + along_column.cwiseAbs());
-      const auto i = static_cast<std::size_t>(&pixels(u, v) - pixels.data());
-      if (half_span.allFinite()) rays_[i].half_span = half_span;
+      const Eigen::Index i = &pixels(u, v) - pixels.data();
+      if (!half_span.allFinite()) continue;
+      rays_.half_u[i] = half_span.x();
+      rays_.half_v[i] = half_span.y();
     }
   }
 }
 
-/// One depth pixel into the colour pixels whose centres it covers; neighbours of equal depth tile.
-void DepthRegistration::splat(DepthImage& registered, const PixelRay& ray, double depth) const {
-  const Eigen::Vector3d point = ray.rotated * depth + translation_;
-  const auto centre = color_camera_.project(point);
-  if (!centre) return;
-  const auto first_in = [](double low, int size) {  // NaN becomes 0
-    return static_cast<int>(std::ceil(std::min(std::max(0.0, low), static_cast<double>(size))));
-  };
+/// Centres and depths in the colour camera. A camera without distortion, which is the rule, is computed for
+/// the whole row at once, as Camera::project does.
+void DepthRegistration::place(Row& row) const {
+  const Eigen::Index n = row.depth.size();
+  const auto x = rays_.x.segment(row.first_ray, n), y = rays_.y.segment(row.first_ray, n);
+  row.z = rays_.z.segment(row.first_ray, n) * row.depth + translation_.z();
+  if (color_camera_.model == CameraModel::pinhole) {
+    row.u = color_camera_.fx * ((x * row.depth + translation_.x()) / row.z) + color_camera_.cx;
+    row.v = color_camera_.fy * ((y * row.depth + translation_.y()) / row.z) + color_camera_.cy;
+    return;
+  }
+  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Eigen::Vector3d point(x[i] * row.depth[i] + translation_.x(),
+                                y[i] * row.depth[i] + translation_.y(), row.z[i]);
+    const Eigen::Vector2d pixel = color_camera_.project(point).value_or(none);
+    row.u[i] = pixel.x();
+    row.v[i] = pixel.y();
+  }
+}
+
+/// The first whole numbers not below `low` in [0, size]; nothing in particular for NaN.
+Eigen::ArrayXd first_in(const Eigen::ArrayXd& low, double size) {
+  return low.max(0.0).min(size).ceil();
+}
+
+/// The colour pixels whose centres a depth pixel covers; neighbours of equal depth tile.
+void DepthRegistration::cover(Row& row) const {
   constexpr double kRounding =
       1e-6;  // neighbours may overlap by so much, so that no gap is left between them
-  const Eigen::Vector2d half = (ray.half_span * (depth / point.z())).array() + kRounding;
-  const int u_begin = first_in(centre->x() - half.x(), registered.width());
-  const int u_end = first_in(centre->x() + half.x(), registered.width());
-  const int v_begin = first_in(centre->y() - half.y(), registered.height());
-  const int v_end = first_in(centre->y() + half.y(), registered.height());
-  const auto z = static_cast<float>(point.z());
-  for (int v = v_begin; v < v_end; ++v) {
-    for (int u = u_begin; u < u_end; ++u) {
-      float& nearest = registered(u, v);
-      if (nearest == 0.0F || z < nearest) nearest = z;
+  const Eigen::Index n = row.depth.size();
+  const Eigen::ArrayXd nearness = row.depth / row.z;
+  const Eigen::ArrayXd reach_u = rays_.half_u.segment(row.first_ray, n) * nearness + kRounding;
+  const Eigen::ArrayXd reach_v = rays_.half_v.segment(row.first_ray, n) * nearness + kRounding;
+  row.u_begin = first_in(row.u - reach_u, color_camera_.width);
+  row.u_end = first_in(row.u + reach_u, color_camera_.width);
+  row.v_begin = first_in(row.v - reach_v, color_camera_.height);
+  row.v_end = first_in(row.v + reach_v, color_camera_.height);
+}
+
+/// The nearest surface stays.
+void DepthRegistration::draw(const Row& row, DepthImage& registered) {
+  constexpr double kMinDepth = 1e-9;  // metres: nearer is not in front of the colour camera
+  for (Eigen::Index i = 0; i < row.depth.size(); ++i) {
+    if (!(row.depth[i] > 0) || !(row.z[i] > kMinDepth)) continue;
+    if (!(row.u_begin[i] < row.u_end[i]) || !(row.v_begin[i] < row.v_end[i]))
+      continue;  // nor where it is NaN
+    const auto z = static_cast<float>(row.z[i]);
+    const int u_begin = static_cast<int>(row.u_begin[i]), u_end = static_cast<int>(row.u_end[i]);
+    const int v_begin = static_cast<int>(row.v_begin[i]), v_end = static_cast<int>(row.v_end[i]);
+    for (int v = v_begin; v < v_end; ++v) {
+      for (int u = u_begin; u < u_end; ++u) {
+        float& nearest = registered(u, v);
+        if (nearest == 0.0F || z < nearest) nearest = z;
+      }
     }
   }
 }
@@ -88,8 +131,15 @@ DepthImage DepthRegistration::operator()(const DepthImage& depth) const {
   require(depth.width() == depth_camera_.width && depth.height() == depth_camera_.height,
           "a depth image has the depth camera's size");
   DepthImage registered(color_camera_.width, color_camera_.height);
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (depth.data()[i] > 0) splat(registered, rays_[i], static_cast<double>(depth.data()[i]));
+  const Eigen::Index width = depth.width();
+  Row row;
+  for (Eigen::ArrayXd* array : {&row.u, &row.v}) array->resize(width);
+  for (int v = 0; v < depth.height(); ++v) {
+    row.first_ray = v * width;
+    row.depth = Eigen::Map<const Eigen::ArrayXf>(depth.row(v), width).cast<double>();
+    place(row);
+    cover(row);
+    draw(row, registered);
   }
   return registered;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "cairn/geometry/camera.h"
@@ -23,20 +25,30 @@ class DepthRegistration {
   [[nodiscard]] DepthImage operator()(const DepthImage& depth) const;
 
  private:
-  /// What one depth pixel is to the colour camera.
-  struct PixelRay {
-    Eigen::Vector3d rotated;    // R * (x/z, y/z, 1); NaN where there is none
-    Eigen::Vector2d half_span;  // colour pixels, half the depth pixel's extent at equal distance
+  /// What the depth pixels are to the colour camera, row by row.
+  struct Rays {
+    Eigen::ArrayXd x, y, z;         // R * (x/z, y/z, 1); NaN where there is none
+    Eigen::ArrayXd half_u, half_v;  // colour pixels, half the depth pixel's extent at equal distance
+  };
+  /// Where one row of depth pixels falls.
+  struct Row {
+    Eigen::Index first_ray = 0;
+    Eigen::ArrayXd depth;                           // metres, in the depth camera
+    Eigen::ArrayXd z;                               // metres, in the colour camera
+    Eigen::ArrayXd u, v;                            // centres, colour pixels; NaN where there is none
+    Eigen::ArrayXd u_begin, u_end, v_begin, v_end;  // colour pixels that are covered, ends excluded
   };
 
   void cast_rays(const Eigen::Matrix3d& rotation);
   void measure_spans();
-  void splat(DepthImage& registered, const PixelRay& ray, double depth) const;
+  void place(Row& row) const;
+  void cover(Row& row) const;
+  static void draw(const Row& row, DepthImage& registered);
 
   Camera depth_camera_;
   Camera color_camera_;
   Eigen::Vector3d translation_;
-  std::vector<PixelRay> rays_;  // row by row
+  Rays rays_;
 };
 
 }  // namespace cairn

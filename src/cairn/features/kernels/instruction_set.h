@@ -8,7 +8,7 @@ namespace cairn {
 enum class InstructionSet {
   plain,   ///< what every machine of the architecture has
   sse42,   ///< SSE4.2 and POPCNT
-  avx2,    ///< AVX2, BMI1, BMI2 and LZCNT; no FMA, which would change bits
+  avx2,    ///< AVX2, BMI1 and BMI2; no FMA, which would change bits
   avx512,  ///< AVX-512 F, BW, VL, DQ, VBMI, VNNI, BITALG and VPOPCNTDQ, as since Ice Lake and Zen 4
 };
 
