@@ -39,22 +39,23 @@ TEST(Essential, is_taken_apart_and_put_together) {
   }
 }
 
-/// An example whose usual printed solution, R1 and R2 here, are the factors U W^T V^T and U W V^T of
-/// determinant -1: the rotations are their negatives, and E = skew(t) R2 = skew(-t) (-R2).
+/// An example whose usual printed solution are the factors U W^T V^T and U W V^T of
+/// determinant -1: the rotations are their negatives, and E = skew(t) second = skew(-t) (-second).
 TEST(Essential, decomposes_the_known_example) {
-  Eigen::Matrix3d E, R1, R2;
+  Eigen::Matrix3d E, first, second;
   E << -0.0203618550523477, -0.4007110038118445, -0.03324074249824097, 0.3939270778216369,
       -0.03506401846698079, 0.5857110303721015, -0.006788487241438284, -0.5815434272915686,
       -0.01438258684486258;
-  R1 << -0.365887, -0.0584576, 0.928822, -0.00287462, 0.998092, 0.0616848, 0.930655, -0.0198996, 0.365356;
-  R2 << -0.998596, 0.0516992, -0.0115267, -0.0513961, -0.99836, -0.0252005, 0.0128107, 0.0245727, -0.999616;
+  first << -0.365887, -0.0584576, 0.928822, -0.00287462, 0.998092, 0.0616848, 0.930655, -0.0198996, 0.365356;
+  second << -0.998596, 0.0516992, -0.0115267, -0.0513961, -0.99836, -0.0252005, 0.0128107, 0.0245727,
+      -0.999616;
   const Eigen::Vector3d t(0.581301, 0.0231206, -0.401938);
   const EssentialDecomposition parts = decompose_essential(E);
   EXPECT_LT((parts.singular_values - Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0)).norm(), 1e-6);
-  EXPECT_LT((parts.factors[0] - R1).norm(), 5e-6);
-  EXPECT_LT((parts.factors[1] - R2).norm(), 5e-6);
-  EXPECT_LT((parts.rotations[0] + R1).norm(), 5e-6);
-  EXPECT_LT((parts.rotations[1] + R2).norm(), 5e-6);
+  EXPECT_LT((parts.factors[0] - first).norm(), 5e-6);
+  EXPECT_LT((parts.factors[1] - second).norm(), 5e-6);
+  EXPECT_LT((parts.rotations[0] + first).norm(), 5e-6);
+  EXPECT_LT((parts.rotations[1] + second).norm(), 5e-6);
   EXPECT_LT(std::min((parts.translation - t).norm(), (parts.translation + t).norm()), 1e-6);
   EXPECT_LT((skew(parts.translation) * parts.rotations[0] - E).norm(), 1e-12);
 }
