@@ -3,7 +3,7 @@
 """Bad stereo recordings: each ends in one message that names the place and the way out."""
 
 from harness import Case, main
-from inputs import RIGHT_CAMERA, asl_sequence, file, kitti_sequence, png_bytes, replaced, tum_sequence, without
+from inputs import CAMERA, RIGHT_CAMERA, asl_sequence, file, kitti_sequence, png_bytes, replaced, tum_sequence, without
 
 SEQ = asl_sequence()
 KITTI = kitti_sequence()
@@ -90,6 +90,9 @@ CASES = [
          (KITTI, camera("left_from_right", "left_to_right"))),
     Case("right camera for an RGB-D sequence", "info seq", ("seq/camera.yaml:4: expected 'baseline' instead, as there is 'depth'",),
          (tum_sequence(), lambda folder: file("seq/camera.yaml", (folder / "seq/camera.yaml").read_text() + RIGHT_CAMERA)(folder))),
+    Case("right camera for a sequence of one camera", "info seq", ("seq/camera.yaml: expected one camera, as a sequence of format TUM has", "Delete"),
+         (tum_sequence(), file("seq/camera.yaml", CAMERA.splitlines()[0] + "\n" + RIGHT_CAMERA))),
+    Case("focal length of a raw pair", "slam seq -o run --set camera.fx=50", ("camera.fx", "raw stereo pair", "--camera"), (SEQ,)),
     # rectify
     Case("rectify", "rectify seq -o out --quiet", given=(SEQ,), code=0, leaves=("out",), prints=("frames       3", "poses        of every frame")),
     Case("rectify without truth", "rectify seq -o out --quiet", given=(KITTI,), code=0, leaves=("out",), prints=("poses        none",)),

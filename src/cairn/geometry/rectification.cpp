@@ -29,13 +29,13 @@ class CommonView {
         height_over_width_(static_cast<double>(rectification.camera.height - 1) /
                            std::max(1, rectification.camera.width - 1)) {}
 
-  /// The largest view with this centre whose border both cameras see; nothing where they do not see the
-  /// centre.
-  [[nodiscard]] std::optional<View> around(const Eigen::Vector2d& centre) const {
-    if (!sees(centre)) return std::nullopt;
+  /// The largest view with this centre whose border both cameras see; nothing where they do not see one of
+  /// `half_width`.
+  [[nodiscard]] std::optional<View> around(const Eigen::Vector2d& centre, double half_width) const {
+    View view{centre, half_width};
+    if (!sees_border(view)) return std::nullopt;
     constexpr int kHalvings = 40;
     constexpr double kWidest = 4;  // 76 degrees to each side; a pinhole image of more is all border
-    View view{centre, 0};
     double too_wide = kWidest;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (view.half_width + too_wide);
@@ -75,12 +75,12 @@ class CommonView {
 /// The widest view: its centre is moved in four directions while that helps, in ever smaller steps.
 std::optional<View> widest_view(const CommonView& common, const Eigen::Vector2d& start) {
   constexpr double kFirstStep = 0.1, kLastStep = 1e-4;  // on the plane at distance 1: 6 and 0.006 degrees
-  auto best = common.around(start);
+  auto best = common.around(start, 0);
   for (double step = kFirstStep; best && step >= kLastStep;) {
     const View from = *best;
     for (const Eigen::Vector2d& move : {Eigen::Vector2d(step, 0), Eigen::Vector2d(-step, 0),
                                         Eigen::Vector2d(0, step), Eigen::Vector2d(0, -step)}) {
-      const auto moved = common.around(from.centre + move);
+      const auto moved = common.around(from.centre + move, best->half_width);
       if (moved && moved->half_width > best->half_width) best = moved;
     }
     if (best->half_width == from.half_width) step *= 0.5;

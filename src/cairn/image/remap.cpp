@@ -14,22 +14,23 @@ constexpr int kHalf = kOne * kOne / 2;  // rounds a sum of products of two share
 constexpr int kShift = 16;
 constexpr std::size_t kRowsPerChunk = 32;
 
-struct Weights {
-  int upper_left, upper_right, lower_left, lower_right;
+/// Shares (of 256) of the pixels to the right and below.
+struct Shares {
+  int right, below;
 };
 
-std::uint8_t blend(const Weights& weights, std::uint8_t upper_left, std::uint8_t upper_right,
+std::uint8_t blend(const Shares& shares, std::uint8_t upper_left, std::uint8_t upper_right,
                    std::uint8_t lower_left, std::uint8_t lower_right) {
-  const int sum = weights.upper_left * upper_left + weights.upper_right * upper_right +
-                  weights.lower_left * lower_left + weights.lower_right * lower_right;
-  return static_cast<std::uint8_t>((sum + kHalf) >> kShift);
+  const int upper = upper_left * kOne + (upper_right - upper_left) * shares.right;
+  const int lower = lower_left * kOne + (lower_right - lower_left) * shares.right;
+  return static_cast<std::uint8_t>((upper * kOne + (lower - upper) * shares.below + kHalf) >> kShift);
 }
 
-Rgb8 blend(const Weights& weights, const Rgb8& upper_left, const Rgb8& upper_right, const Rgb8& lower_left,
+Rgb8 blend(const Shares& shares, const Rgb8& upper_left, const Rgb8& upper_right, const Rgb8& lower_left,
            const Rgb8& lower_right) {
-  return {blend(weights, upper_left.r, upper_right.r, lower_left.r, lower_right.r),
-          blend(weights, upper_left.g, upper_right.g, lower_left.g, lower_right.g),
-          blend(weights, upper_left.b, upper_right.b, lower_left.b, lower_right.b)};
+  return {blend(shares, upper_left.r, upper_right.r, lower_left.r, lower_right.r),
+          blend(shares, upper_left.g, upper_right.g, lower_left.g, lower_right.g),
+          blend(shares, upper_left.b, upper_right.b, lower_left.b, lower_right.b)};
 }
 
 /// A coordinate as the first of two neighbouring pixels and the second one's share of 256.
@@ -90,10 +91,8 @@ Image<Pixel> ImageRemap::remap(const Image<Pixel>& image, const Executor& execut
           const Origin& origin = origins_.data()[i];
           if (origin.offset < 0) continue;
           const Pixel* pixel = image.data() + origin.offset;
-          const int to_right = origin.right, to_below = origin.below;
-          const Weights weights{(kOne - to_right) * (kOne - to_below), to_right * (kOne - to_below),
-                                (kOne - to_right) * to_below, to_right * to_below};
-          result.data()[i] = blend(weights, pixel[0], pixel[right], pixel[below], pixel[right + below]);
+          result.data()[i] =
+              blend({origin.right, origin.below}, pixel[0], pixel[right], pixel[below], pixel[right + below]);
         }
       });
   return result;
