@@ -154,7 +154,7 @@ std::string unknown_option(const CLI::App& app, int argc, char** argv) {
   const std::vector<std::string> names = option_names(app);
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    const std::string name = argument.substr(0, argument.find('='));
+    std::string name = argument.substr(0, argument.find('='));
     if (name.rfind("--", 0) == 0 && name.size() > 2 &&
         std::find(names.begin(), names.end(), name) == names.end())
       return name;
