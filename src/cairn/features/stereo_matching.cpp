@@ -50,8 +50,8 @@ struct Rows {
 
   /// The largest sigma of the keypoints up to this size; 0 where there is none.
   [[nodiscard]] float max_sigma_up_to(float largest_size) const {
-    const auto end = std::upper_bound(sizes.begin(), sizes.end(), largest_size);
-    return end == sizes.begin() ? 0 : max_sigmas[static_cast<std::size_t>(end - sizes.begin()) - 1];
+    const auto end = std::upper_bound(sizes_.begin(), sizes_.end(), largest_size);
+    return end == sizes_.begin() ? 0 : max_sigmas_[static_cast<std::size_t>(end - sizes_.begin()) - 1];
   }
 
   /// Begin and end of the places that hold all keypoints between two heights, and few others.
@@ -74,11 +74,11 @@ struct Rows {
     float largest = 0;
     for (const auto& [size_px, sigma_px] : ranked) {
       largest = std::max(largest, sigma_px);
-      sizes.push_back(size_px), max_sigmas.push_back(largest);
+      sizes_.push_back(size_px), max_sigmas_.push_back(largest);
     }
   }
 
-  std::vector<float> sizes, max_sigmas;  // ascending, and the largest sigma up to each
+  std::vector<float> sizes_, max_sigmas_;  // ascending, and the largest sigma up to each
 };
 
 /// Which right features a left one may match.
@@ -184,7 +184,7 @@ std::optional<StereoMatch> measure(const StereoSide& left, const StereoSide& rig
 void StereoMatchOptions::validate() const {
   require(min_depth > 0 && max_depth > min_depth, "the depth limits are above 0 and ascend");
   require(row_band >= 0 && std::isfinite(row_band), "the row band is not negative");
-  require(max_size_ratio >= 1, "sizes may be equal");
+  require(max_size_ratio >= 1, "sizes_ may be equal");
   require(max_distance >= 0 && max_ratio >= 0, "distance limit and ratio are not negative");
   require(min_correlation <= 1, "windows correlate by at most 1");
 }
