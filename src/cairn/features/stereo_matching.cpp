@@ -184,7 +184,7 @@ std::optional<StereoMatch> measure(const StereoSide& left, const StereoSide& rig
 void StereoMatchOptions::validate() const {
   require(min_depth > 0 && max_depth > min_depth, "the depth limits are above 0 and ascend");
   require(row_band >= 0 && std::isfinite(row_band), "the row band is not negative");
-  require(max_size_ratio >= 1, "sizes_ may be equal");
+  require(max_size_ratio >= 1, "sizes may be equal");
   require(max_distance >= 0 && max_ratio >= 0, "distance limit and ratio are not negative");
   require(min_correlation <= 1, "windows correlate by at most 1");
 }
