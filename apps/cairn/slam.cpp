@@ -19,7 +19,7 @@ struct SlamArguments {
 };
 
 void declare(CLI::App& app, SlamArguments& arguments) {
-  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence")->required();
+  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D or stereo sequence")->required();
   app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
       ->type_name("RUN")
       ->required();
@@ -52,7 +52,7 @@ SlamParameters gather_parameters(const SlamArguments& arguments) {
   return parameters;
 }
 
-int report_nothing_tracked(const RgbdSlamResult& result) {
+int report_nothing_tracked(const SlamResult& result) {
   fmt::print(
       stderr,
       "cairn slam: no frame could be tracked: none of {} frames had enough features with depth to begin a "
@@ -63,7 +63,7 @@ int report_nothing_tracked(const RgbdSlamResult& result) {
 }
 
 /// A map of its first frame only is no answer.
-int warn_if_never_followed(const RgbdSlamResult& result) {
+int warn_if_never_followed(const SlamResult& result) {
   if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
   fmt::print(stderr,
              "cairn slam: no motion was found between any two of {} frames: they may lie too far apart, or "
@@ -79,8 +79,8 @@ int warn_if_never_followed(const RgbdSlamResult& result) {
 int run_slam(int argc, char** argv) {
   SlamArguments arguments;
   CLI::App app(
-      "RGB-D SLAM: a sequence without poses becomes a trajectory, a keyframe map, a coloured cloud and an "
-      "octree.",
+      "SLAM: an RGB-D or stereo sequence without poses becomes a trajectory and a map; with depth images also a "
+      "coloured cloud and an octree.",
       "slam");
   declare(app, arguments);
   if (const auto code = parse(app, argc, argv)) return *code;
@@ -93,8 +93,8 @@ int run_slam(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);
 
-  const RgbdSlamResult result = run_rgbd_slam(sequence, parameters.slam, executor, *progress);
-  if (result.map.keyframes.empty()) return report_nothing_tracked(result);
+  const SlamResult result = cairn::run_slam(sequence, parameters.slam, executor, *progress);
+  if (result.map.keyframes().empty()) return report_nothing_tracked(result);
   SlamSummary summary;
   summary.threads = executor.threads();
   summary.seed = parameters.slam.seed;

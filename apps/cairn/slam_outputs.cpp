@@ -16,7 +16,7 @@
 #include "cairn/evaluate/evaluation.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/g2o_file.h"
-#include "cairn/map/keyframe_map_file.h"
+#include "cairn/map/map_file.h"
 #include "fusion.h"
 
 namespace cairn::app {
@@ -33,7 +33,7 @@ struct FrameCounts {
   int median_inliers = 0;
 };
 
-FrameCounts count_frames(const RgbdSlamResult& result) {
+FrameCounts count_frames(const SlamResult& result) {
   FrameCounts counts;
   std::vector<int> inliers;
   for (const FrameTrack& track : result.frames) {
@@ -56,27 +56,43 @@ double share(std::int64_t part, std::int64_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
 }
 
+/// The stages by their names, in the order of the data.
+std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times) {
+  return {{"decode", &times.decode}, {"features", &times.features}, {"tracking", &times.tracking},
+          {"mapping", &times.mapping}, {"loops", &times.loops}, {"window", &times.window},
+          {"global", &times.global}};
+}
+
+nlohmann::ordered_json to_json(const TimeSummary& time) {
+  return {{"total_s", time.total}, {"median_ms", 1e3 * time.median}, {"percentile_95_ms", 1e3 * time.percentile_95}};
+}
+
 /// Poses of the keyframes' frames; nothing for all others.
-std::vector<std::optional<Rigid3>> keyframe_poses(const Sequence& sequence, const KeyframeMap& map) {
+std::vector<std::optional<Rigid3>> keyframe_poses(const Sequence& sequence,
+                                                  const SlamResult& result) {
   std::vector<std::optional<Rigid3>> poses(sequence.frames.size());
-  for (const Keyframe& keyframe : map.keyframes)
-    poses[static_cast<std::size_t>(keyframe.observed.frame.value)] = keyframe.world_from_camera;
+  const std::int32_t part = result.main_part();
+  for (const Keyframe& keyframe : result.map.keyframes()) {
+    if (!keyframe.erased && keyframe.part == part)
+      poses[static_cast<std::size_t>(keyframe.observed.frame.value)] = keyframe.world_from_camera;
+  }
   return poses;
 }
 
-CameraPath path_of(const RgbdSlamResult& result) {
+CameraPath path_of(const SlamResult& result) {
   CameraPath path;
   for (const FrameTrack& track : result.frames) {
     if (!track.tracked()) continue;
-    const Keyframe& reference = result.map.keyframes[static_cast<std::size_t>(track.reference->value)];
-    if (track.frame == reference.observed.frame) path.keyframes.push_back(path.world_from_camera.size());
-    path.world_from_camera.push_back(reference.world_from_camera * track.reference_from_frame);
+    const Keyframe& reference = result.map[*track.reference];
+    const bool is_keyframe = track.frame == reference.observed.frame && !reference.erased;
+    if (is_keyframe) path.keyframes.push_back(path.world_from_camera.size());
+    path.world_from_camera.push_back(result.map.world_from_camera(reference.id) * track.reference_from_frame);
   }
   return path;
 }
 
 /// One row per frame: what became of it.
-std::string format_frames_csv(const RgbdSlamResult& result) {
+std::string format_frames_csv(const SlamResult& result) {
   std::string text = "frame,stamp_s,outcome,relocalized,reference_keyframe,matches,inliers\n";
   for (const FrameTrack& track : result.frames) {
     text += fmt::format("{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
@@ -87,7 +103,7 @@ std::string format_frames_csv(const RgbdSlamResult& result) {
   return text;
 }
 
-void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, const RgbdSlamResult& result,
+void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, const SlamResult& result,
                        double voxel_size) {
   write_cloud(folder / "cloud.ply", cloud);
   write_png(folder / "cloud.png", draw_overview(cloud, path_of(result), voxel_size));
@@ -96,20 +112,20 @@ void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, 
 }  // namespace
 
 void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
-                      const RgbdSlamResult& result, SlamParameters& parameters) {
+                      const SlamResult& result, SlamParameters& parameters) {
   write_file(folder / "trajectory.txt", format_tum_trajectory(result.trajectory()));
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
   write_file(folder / "frames.csv", format_frames_csv(result));
-  write_keyframe_map(folder / "map", result.map);
+  cairn::write_map(folder / "map", result.map);
   write_file(folder / "camera.yaml", format_calibration(sequence.calibration));
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
 }
 
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
-                       const RgbdSlamResult& result, const SlamParameters& parameters,
+                       const SlamResult& result, const SlamParameters& parameters,
                        const SlamOutputs& wanted, const Executor& executor, Progress& progress,
                        SlamSummary& summary) {
   if (!wanted.cloud && !wanted.octree) return;
@@ -117,7 +133,7 @@ void write_dense_files(const std::filesystem::path& folder, const Sequence& sequ
   CloudBuilder cloud_builder(parameters.cloud);
   OccupancyGrid grid(parameters.octree);
   const FusionTargets targets{wanted.cloud ? &cloud_builder : nullptr, wanted.octree ? &grid : nullptr};
-  (void)fuse_sequence(sequence, keyframe_poses(sequence, result.map), targets, executor, progress);
+  (void)fuse_sequence(sequence, keyframe_poses(sequence, result), targets, executor, progress);
   if (wanted.cloud) {
     const Cloud cloud = cloud_builder.take();
     summary.cloud_points = static_cast<std::int64_t>(cloud.points.size());
@@ -132,7 +148,7 @@ void write_dense_files(const std::filesystem::path& folder, const Sequence& sequ
   summary.fusion_seconds = watch.seconds();
 }
 
-void add_accuracy(const Sequence& sequence, const RgbdSlamResult& result, SlamSummary& summary) {
+void add_accuracy(const Sequence& sequence, const SlamResult& result, SlamSummary& summary) {
   if (!sequence.truth) return;
   const TrajectoryEvaluation evaluation = evaluate_trajectory(result.trajectory(), *sequence.truth);
   if (evaluation.status != EvaluationStatus::ok) return;
@@ -140,10 +156,9 @@ void add_accuracy(const Sequence& sequence, const RgbdSlamResult& result, SlamSu
   summary.ate_pairs = static_cast<std::int64_t>(evaluation.pairs.size());
 }
 
-std::string format_run_json(const Sequence& sequence, const RgbdSlamResult& result,
+std::string format_run_json(const Sequence& sequence, const SlamResult& result,
                             const SlamSummary& summary) {
   const FrameCounts counts = count_frames(result);
-  const StageSeconds& s = result.seconds;
   nlohmann::ordered_json json;
   json["cairn"] = CAIRN_VERSION;
   json["sequence"] = sequence.folder.string();
@@ -154,29 +169,27 @@ std::string format_run_json(const Sequence& sequence, const RgbdSlamResult& resu
       {"relocalized", counts.relocalized}, {"unreadable", result.unreadable}};
   json["stopped"] = result.stopped;
   json["median_inliers"] = counts.median_inliers;
-  json["keyframes"] = result.map.keyframes.size();
-  json["loops"] = {{"tried", result.loops.tried}, {"nearby", result.loops.nearby}, {"far", result.loops.far}};
-  json["graph"] = {{"edges", result.graph_after.edges.size()},
-                   {"chi2_before", result.graph_report.chi2_before},
-                   {"chi2_after", result.graph_report.chi2_after},
-                   {"iterations", result.graph_report.iterations}};
+  json["keyframes"] = result.map.keyframe_ids().size();
+  const LoopReport& loops = result.loops;
+  json["loops"] = {{"tried", loops.tried},   {"verified", loops.verified}, {"rejected", loops.rejected},
+                   {"joined", loops.joined}, {"closed", loops.closed},     {"parts_joined", loops.parts_joined}};
+  json["landmarks"] = result.map.landmark_ids().size();
+  json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = summary.ate_m ? nlohmann::ordered_json(*summary.ate_m) : nullptr;
   json["cloud_points"] = summary.cloud_points;
   json["octree"] = {{"occupied", summary.occupied_voxels}, {"free", summary.free_voxels}};
   json["seed"] = summary.seed;
   json["odometry"] = summary.odometry;
   json["threads"] = summary.threads;
-  json["seconds"] = {{"total", summary.total_seconds},  {"decode", s.decode}, {"features", s.features},
-                     {"tracking", s.tracking},          {"loops", s.loops},   {"graph", s.graph},
-                     {"fusion", summary.fusion_seconds}};
+  json["seconds"] = {{"total", summary.total_seconds}, {"fusion", summary.fusion_seconds}};
+  for (const auto& [name, seconds] : stages(result.times)) json["stages"][name] = to_json(summarize(*seconds));
   json["peak_memory_mb"] = peak_memory_mb();
   return json.dump(2) + "\n";
 }
 
-void print_summary(const Sequence& sequence, const RgbdSlamResult& result, const SlamSummary& summary,
+void print_summary(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary,
                    const std::string& folder, const SlamOutputs& wanted) {
   const FrameCounts counts = count_frames(result);
-  const StageSeconds& s = result.seconds;
   fmt::print("frames       {} of {} tracked ({:.1f} %), median {} inliers\n", counts.tracked, counts.frames,
              share(counts.tracked, counts.frames), counts.median_inliers);
   if (counts.tracked < counts.frames) {
@@ -187,12 +200,11 @@ void print_summary(const Sequence& sequence, const RgbdSlamResult& result, const
   if (result.stopped)
     fmt::print("stopped      after {} of {} frames; the outputs hold what was done\n", counts.frames,
                sequence.frames.size());
-  fmt::print("keyframes    {}\n", result.map.keyframes.size());
-  fmt::print("loops        {} nearby, {} far, of {} tried\n", result.loops.nearby, result.loops.far,
-             result.loops.tried);
-  fmt::print("pose graph   {} edges, chi2 {:.1f} -> {:.1f} in {} iterations\n",
-             result.graph_after.edges.size(), result.graph_report.chi2_before, result.graph_report.chi2_after,
-             result.graph_report.iterations);
+  fmt::print("keyframes    {}\n", result.map.keyframe_ids().size());
+  const LoopReport& loops = result.loops;
+  fmt::print("landmarks    {}\n", result.map.landmark_ids().size());
+  fmt::print("loops        {} closed, {} joined, {} rejected, of {} tried\n", loops.closed, loops.joined,
+             loops.rejected, loops.tried);
   if (summary.ate_m) {
     fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",
                100 * *summary.ate_m, summary.ate_pairs);
@@ -205,10 +217,13 @@ void print_summary(const Sequence& sequence, const RgbdSlamResult& result, const
                summary.free_voxels);
   fmt::print("time         {:.1f} s on {} threads, {:.1f} frames/s\n", summary.total_seconds, summary.threads,
              static_cast<double>(counts.frames) / summary.total_seconds);
-  fmt::print(
-      "  cpu        decode {:.1f}, features {:.1f}, tracking {:.1f}, loops {:.1f}, graph {:.1f}, fusion "
-      "{:.1f} s\n",
-      s.decode, s.features, s.tracking, s.loops, s.graph, summary.fusion_seconds);
+  fmt::print("  stages     total s, median ms, 95 % ms\n");
+  for (const auto& [name, seconds] : stages(result.times)) {
+    const TimeSummary time = summarize(*seconds);
+    fmt::print("    {:<10} {:6.2f} {:8.2f} {:8.2f}\n", name, time.total, 1e3 * time.median,
+               1e3 * time.percentile_95);
+  }
+  if (wanted.cloud || wanted.octree) fmt::print("    {:<10} {:6.2f}\n", "fusion", summary.fusion_seconds);
   fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
   fmt::print("written to   {}\n", folder);
   if (sequence.truth) fmt::print("next         cairn evaluate {} {}\n", folder, sequence.folder.string());

@@ -8,7 +8,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
-#include "cairn/slam/rgbd_slam.h"
+#include "cairn/slam/slam.h"
 #include "slam_parameters.h"
 
 namespace cairn::app {
@@ -34,18 +34,18 @@ struct SlamSummary {
 
 /// Trajectories, graphs, the map, and the effective configuration and calibration.
 void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
-                      const RgbdSlamResult& result, SlamParameters& parameters);
+                      const SlamResult& result, SlamParameters& parameters);
 /// The coloured cloud and the octree from the optimised keyframes, and a picture of the cloud.
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
-                       const RgbdSlamResult& result, const SlamParameters& parameters,
+                       const SlamResult& result, const SlamParameters& parameters,
                        const SlamOutputs& wanted, const Executor& executor, Progress& progress,
                        SlamSummary& summary);
 /// run.json: the figures of the run, as `cairn slam --json` prints them.
-[[nodiscard]] std::string format_run_json(const Sequence& sequence, const RgbdSlamResult& result,
+[[nodiscard]] std::string format_run_json(const Sequence& sequence, const SlamResult& result,
                                           const SlamSummary& summary);
-void print_summary(const Sequence& sequence, const RgbdSlamResult& result, const SlamSummary& summary,
+void print_summary(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary,
                    const std::string& folder, const SlamOutputs& wanted);
 /// Compares with the truth that the sequence carries, if any.
-void add_accuracy(const Sequence& sequence, const RgbdSlamResult& result, SlamSummary& summary);
+void add_accuracy(const Sequence& sequence, const SlamResult& result, SlamSummary& summary);
 
 }  // namespace cairn::app

@@ -19,7 +19,7 @@ void bind_sequence(SequenceOptions& sequence, SettingTable& table) {
   table.bind("max_stamp_gap_s", sequence.max_stamp_gap_s);
 }
 
-void bind_slam(RgbdSlamOptions& slam, SettingTable& table) {
+void bind_slam(SlamOptions& slam, SettingTable& table) {
   table.bind("detector", slam.features.detector);
   table.bind("descriptor", slam.features.descriptor);
   table.bind("features", slam.features.count);
@@ -32,11 +32,35 @@ void bind_slam(RgbdSlamOptions& slam, SettingTable& table) {
   table.bind("keyframe_threshold", slam.keyframe_threshold);
   table.bind("weak_tracking", slam.weak_tracking);
   table.bind("check_loop_closure", slam.check_loop_closure);
+  table.bind("place_loops", slam.place_loops);
   table.bind("nearby_loops", slam.nearby_loops);
   table.bind("random_loops", slam.random_loops);
   table.bind("loop_min_inliers", slam.loop_min_inliers);
   table.bind("loop_min_inlier_share", slam.loop_min_inlier_share);
   table.bind("relocalization_keyframes", slam.relocalization_keyframes);
+  table.bind("lost_frames", slam.lost_frames);
+}
+
+void bind_tracking(TrackingOptions& tracking, SettingTable& table) {
+  table.bind("tracking.motion_radius_px", tracking.motion_radius_px);
+  table.bind("tracking.map_radius_px", tracking.map_radius_px);
+  table.bind("tracking.local_keyframes", tracking.local_keyframes);
+  table.bind("tracking.local_neighbours", tracking.local_neighbours);
+}
+
+void bind_mapping(MappingOptions& mapping, SettingTable& table) {
+  table.bind("mapping.view_change", mapping.view_change);
+  table.bind("mapping.trial_keyframes", mapping.trial_keyframes);
+  table.bind("mapping.window_keyframes", mapping.window_keyframes);
+  table.bind("mapping.window_fixed", mapping.window_fixed);
+  table.bind("mapping.window_lag", mapping.window_lag);
+  table.bind("mapping.redundant_share", mapping.redundant_share);
+}
+
+void bind_stereo(StereoNoise& noise, SettingTable& table) {
+  table.bind("stereo.min_depth", noise.min_depth);
+  table.bind("stereo.min_disparity_sigmas", noise.min_disparity_sigmas);
+  table.bind("stereo.sigma_floor_px", noise.sigma_floor_px);
 }
 
 void bind_depth(DepthNoise& noise, SettingTable& table) {
@@ -55,6 +79,9 @@ SettingTable SlamParameters::table() {
   bind_sequence(sequence, table);
   bind_slam(slam, table);
   bind_depth(slam.depth_noise, table);
+  bind_stereo(slam.stereo_noise, table);
+  bind_tracking(slam.tracking, table);
+  bind_mapping(slam.mapping, table);
   table.bind("voxel_grid", cloud.voxel_size);
   table.bind("cloud.max_depth", cloud.max_depth);
   table.bind("octree.resolution", octree.resolution);

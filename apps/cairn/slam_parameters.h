@@ -12,7 +12,7 @@ namespace cairn::app {
 /// Everything that `cairn slam` can be told by --config and --set.
 struct SlamParameters {
   SequenceOptions sequence;
-  RgbdSlamOptions slam;
+  SlamOptions slam;
   CloudOptions cloud;
   OccupancyOptions octree;
 

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -75,6 +76,52 @@ Executor::Executor(int threads) : threads_(threads) {
 }
 
 Executor::~Executor() = default;
+
+struct Executor::Task::State {
+  State(std::function<void()> work_to_do, tbb::task_arena* arena_to_use)
+      : work(std::move(work_to_do)), arena(arena_to_use) {}
+  std::function<void()> work;
+  tbb::task_arena* arena;  // null: no other thread
+  tbb::task_group group;
+  std::exception_ptr failure = nullptr;
+  bool waited = false;
+
+  void run() {
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+
+  void wait() {
+    if (std::exchange(waited, true)) return;
+    if (arena != nullptr) {
+      arena->execute([this] { group.wait(); });
+    } else {
+      run();
+    }
+  }
+};
+
+Executor::Task::Task(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Executor::Task::Task(Task&&) noexcept = default;
+
+Executor::Task::~Task() {
+  if (state_ && state_->arena != nullptr) state_->wait();
+}
+
+void Executor::Task::wait() {
+  state_->wait();
+  if (state_->failure) std::rethrow_exception(state_->failure);
+}
+
+Executor::Task Executor::start(std::function<void()> work) const {
+  auto state = std::make_unique<Task::State>(std::move(work), arena_ ? &arena_->arena : nullptr);
+  Task::State* running = state.get();
+  if (arena_) arena_->arena.execute([running] { running->group.run([running] { running->run(); }); });
+  return Task(std::move(state));
+}
 
 void Executor::for_each(std::size_t count, const std::function<void(std::size_t)>& body) const {
   if (!arena_) {

@@ -36,6 +36,27 @@ class Executor {
     return results;
   }
 
+  /// A computation beside the caller's, from its start until it is waited for.
+  class Task {
+   public:
+    Task(Task&&) noexcept;
+    Task& operator=(Task&&) = delete;
+    /// Waits; what the computation threw is lost.
+    ~Task();
+    /// Returns when the computation is done; rethrows what it threw. To be called once.
+    void wait();
+
+   private:
+    friend class Executor;
+    struct State;
+    explicit Task(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+  };
+
+  /// Starts a computation. With one thread it runs when it is waited for; so it must neither read what the
+  /// caller changes meanwhile nor change what the caller reads. The executor outlives the task.
+  [[nodiscard]] Task start(std::function<void()> work) const;
+
   /// Produces items ahead, in parallel, and consumes them one after the other in order: for decoding and
   /// features while another thread tracks. `consume` returns false to stop early; at most
   /// `2 * threads` items exist at a time. An exception of `produce` is rethrown when that item's turn comes:

@@ -2,6 +2,7 @@
 #include "cairn/optimize/pose_only.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/pose_equations.h"
@@ -50,6 +51,12 @@ std::vector<std::int32_t> inliers_of(const Problem& problem, const Rigid3& camer
   return inliers;
 }
 
+std::vector<std::int32_t> all_of(const Problem& problem) {
+  std::vector<std::int32_t> all(problem.seen.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 void fill_statistics(const Problem& problem, PoseOnlyResult& result) {
   double weighted = 0, pixels = 0;
   std::size_t equations = 0;
@@ -77,7 +84,8 @@ PoseOnlyResult refine_pose(const Rig& rig, std::span<const Eigen::Vector3d> poin
   constexpr std::size_t kFewest = 4;
   PoseOnlyResult result;
   result.camera_from_world = initial_camera_from_world;
-  result.inliers = inliers_of(problem, result.camera_from_world);
+  result.inliers =
+      options.begin_with_all ? all_of(problem) : inliers_of(problem, result.camera_from_world);
   for (int round = 0; round < options.rounds; ++round) {
     if (result.inliers.size() < kFewest ||
         !minimise(problem, result.inliers, options, result.camera_from_world))

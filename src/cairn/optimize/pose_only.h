@@ -13,6 +13,9 @@ struct PoseOnlyOptions {
   int rounds = 4;                ///< after each, observations are sorted anew into inliers and outliers
   int iterations_per_round = 8;  ///< Gauss-Newton steps, fewer on convergence
   double converged_step = 1e-8;  ///< radians and metres
+  /// All observations are used in the first round: for a start whose errors are larger than the limit and
+  /// observations that are mostly right. Else those that are inliers at the start.
+  bool begin_with_all = false;
   double huber_px = 2.4;  ///< kernel width in standard deviations: the root of the 95 % limit of (u, v)
 };
 

@@ -3,40 +3,131 @@
 
 #include <algorithm>
 
-#include "cairn/slam/graph_edge.h"
-#include "cairn/slam/motion.h"
-#include "cairn/slam/tracker.h"
+#include "cairn/optimize/pose_graph_optimizer.h"
+#include "cairn/slam/essential_graph.h"
+#include "cairn/slam/local_map.h"
+#include "cairn/slam/mapping.h"
+#include "cairn/slam/relocalizer.h"
 
 namespace cairn {
 namespace {
 
-bool joined(const std::vector<PoseGraph::Edge>& edges, KeyframeId a, KeyframeId b) {
-  return std::any_of(edges.rbegin(), edges.rend(),
-                     [&](const PoseGraph::Edge& edge) { return edge.a == a.value && edge.b == b.value; });
+constexpr int kMinShared = 15;  // landmarks that make two keyframes neighbours
+
+struct Attempt {
+  LoopHypothesis loop;
+  bool verified = false;
+};
+
+/// How many of the landmarks that the frame shows at the place found fit its present place, too.
+bool agrees_with_map(const Map& map, KeyframeId keyframe, const TrackedFrame& found) {
+  const Rigid3 camera_from_world = map[keyframe].world_from_camera.inverse();
+  int seen = 0, fit = 0;
+  for (std::size_t i = 0; i < found.landmarks.size(); ++i) {
+    if (!found.landmarks[i].valid()) continue;
+    ++seen;
+    const Observation& observation = map[keyframe].observed.observations[i];
+    const Eigen::Vector3d point = camera_from_world * map[found.landmarks[i]].point_in_world;
+    fit += squared_error(map.rig(), point, observation) < squared_error_limit(observation) ? 1 : 0;
+  }
+  return 2 * fit > seen;
+}
+
+Attempt attempt(const Map& map, KeyframeId candidate, KeyframeId current, const SlamOptions& options) {
+  const auto points = points_of(map, candidate);
+  const ObservedFrame& observed = map[current].observed;
+  const Motion motion = estimate_motion(map.rig(), {map[candidate].observed, points}, observed, options);
+  const KeyframeDecision decision = decide_loop(motion, options);
+  if (decision == KeyframeDecision::not_matched || decision == KeyframeDecision::too_far) return {};
+  TrackedFrame found = placed_by(map, candidate, motion, observed.observations.size());
+  if (!refine_in_map(map, observed, options, found) || found.inliers < options.loop_min_inliers) return {};
+  const Rigid3 candidate_from_current = map[candidate].world_from_camera.inverse() * found.world_from_camera;
+  const bool agrees =
+      map[candidate].part == map[current].part && agrees_with_map(map, current, found);
+  return {{candidate, current, candidate_from_current, found.inliers, agrees}, true};
+}
+
+PoseGraph::Edge edge_of(const Map& map, const LoopHypothesis& loop) {
+  return {loop.candidate.value, loop.current.value, loop.candidate_from_current,
+          edge_information(map, loop.current), false};
+}
+
+/// Whether a graph gives way to a loop by no more than its edges may be wrong.
+bool is_strained(const PoseGraphReport& report, std::size_t edges) {
+  constexpr double kDegreesOfFreedom = 6;
+  constexpr double kMeanSquare = 4.0;  // 2 standard deviations in all edges at once
+  return !(report.chi2_after < kMeanSquare * kDegreesOfFreedom * static_cast<double>(edges));
 }
 
 }  // namespace
 
-LoopReport close_loops(const KeyframeMap& map, const RgbdSlamOptions& options, const Executor& executor,
-                       std::vector<PoseGraph::Edge>& edges) {
-  const Keyframe& current = map.keyframes.back();
-  auto candidates = candidate_keyframes(current.id, options.nearby_loops, options.random_loops, options.seed,
-                                        static_cast<std::uint64_t>(current.id.value));
-  std::erase_if(candidates, [&](KeyframeId id) { return joined(edges, id, current.id); });
-  const auto motions = executor.map<Motion>(candidates.size(), [&](std::size_t i) {
-    const Keyframe& candidate = map.keyframes[static_cast<std::size_t>(candidates[i].value)];
-    return estimate_motion(map.rig, candidate.observed, current.observed, options);
-  });
-  LoopReport report;
-  report.tried = static_cast<int>(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const KeyframeDecision decision = decide_loop(motions[i], options);
-    if (decision == KeyframeDecision::not_matched || decision == KeyframeDecision::too_far) continue;
-    edges.push_back(make_edge(candidates[i], current.id, motions[i], true));
-    const bool nearby = current.id.value - candidates[i].value <= options.nearby_loops;
-    ++(nearby ? report.nearby : report.far);
+LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map& map)
+    : options_(options), executor_(executor), map_(map) {}
+
+std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
+  std::vector<KeyframeId> ids =
+      candidate_keyframes(map_, keyframe, options_.nearby_loops, options_.random_loops, options_.seed,
+                          static_cast<std::uint64_t>(keyframe.value));
+  std::vector<KeyframeId> near;
+  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared)) near.push_back(view.keyframe);
+  std::erase_if(ids, [&](KeyframeId id) { return std::find(near.begin(), near.end(), id) != near.end(); });
+  return ids;
+}
+
+std::optional<LoopHypothesis> LoopCloser::verify(KeyframeId keyframe) {
+  const auto ids = candidates(keyframe);
+  const auto attempts = executor_.map<Attempt>(
+      ids.size(), [&](std::size_t i) { return attempt(map_, ids[i], keyframe, options_); });
+  report_.tried += static_cast<int>(ids.size());
+  std::optional<LoopHypothesis> best;
+  for (const Attempt& one : attempts) {
+    if (!one.verified) continue;
+    ++report_.verified;
+    if (!best || one.loop.inliers > best->inliers) best = one.loop;
   }
-  return report;
+  return best;
+}
+
+bool LoopCloser::close(KeyframeId keyframe) {
+  const auto loop = verify(keyframe);
+  if (!loop) return false;
+  const LoopVerdict verdict = judge_.judge(map_, *loop);
+  if (verdict == LoopVerdict::agrees) {
+    join_landmarks(*loop);
+    ++report_.joined;
+    return false;
+  }
+  if (verdict != LoopVerdict::believed || !bend(*loop)) {
+    ++report_.rejected;
+    return false;
+  }
+  join_landmarks(*loop);
+  return true;
+}
+
+bool LoopCloser::bend(const LoopHypothesis& loop) {
+  const std::int32_t part = map_[loop.current].part, into = map_[loop.candidate].part;
+  if (part != into) {
+    const Rigid3 into_from_current = map_[loop.candidate].world_from_camera * loop.candidate_from_current;
+    move_part(part, into, into_from_current * map_[loop.current].world_from_camera.inverse(), map_);
+    ++report_.parts_joined;
+  } else {
+    std::vector<PoseGraph::Edge> loops = edges_;
+    loops.push_back(edge_of(map_, loop));
+    PoseGraph graph = essential_graph(map_, part, loops);
+    PoseGraphOptions options;
+    options.start = PoseGraphStart::given;
+    const PoseGraphReport report = optimize_pose_graph(graph, options);
+    if (is_strained(report, graph.edges.size())) return false;
+    move_to(graph, map_);
+    ++report_.closed;
+  }
+  edges_.push_back(edge_of(map_, loop));
+  return true;
+}
+
+void LoopCloser::join_landmarks(const LoopHypothesis& loop) {
+  (void)join_regions(map_, loop.candidate, loop.current, options_);
 }
 
 }  // namespace cairn

@@ -1,25 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "cairn/core/executor.h"
-#include "cairn/map/keyframe_map.h"
+#include "cairn/map/map.h"
 #include "cairn/map/pose_graph.h"
+#include "cairn/slam/loop_judge.h"
 #include "cairn/slam/options.h"
 
 namespace cairn {
 
 struct LoopReport {
-  int tried = 0;
-  int nearby = 0;  ///< edges to one of the last nearby_loops keyframes
-  int far = 0;     ///< edges to one drawn at random
+  int tried = 0;     ///< candidates that were matched with a keyframe
+  int verified = 0;  ///< of these, held by geometry
+  int rejected = 0;  ///< of these, against what the odometry allows, or never confirmed
+  int joined = 0;    ///< landmarks were joined, as the places agreed already
+  int closed = 0;    ///< the map was bent together
+  int parts_joined = 0;
 };
 
-/// Tries the last keyframe of the map against nearby_loops keyframes before it and random_loops others, all
-/// geometrically verified by estimate_motion and max_norm_lp, and adds an edge, flagged robust, for each that
-/// holds. Pairs that have an edge already are left out. Deterministic at any number of threads.
-LoopReport close_loops(const KeyframeMap& map, const RgbdSlamOptions& options, const Executor& executor,
-                       std::vector<PoseGraph::Edge>& edges);
+/// Recognises places, and bends the map together where the camera has come back to one. Deterministic at any
+/// number of threads.
+class LoopCloser {
+ public:
+  LoopCloser(const SlamOptions& options, const Executor& executor, Map& map);
+
+  /// Tries the newest keyframe against keyframes that look like it and lie elsewhere in the map, and closes
+  /// the loop that is found. Returns whether keyframes moved.
+  bool close(KeyframeId keyframe);
+  [[nodiscard]] const LoopReport& report() const { return report_; }
+  /// The loops that were closed, as measured.
+  [[nodiscard]] const std::vector<PoseGraph::Edge>& edges() const { return edges_; }
+
+ private:
+  [[nodiscard]] std::vector<KeyframeId> candidates(KeyframeId keyframe) const;
+  [[nodiscard]] std::optional<LoopHypothesis> verify(KeyframeId keyframe);
+  bool bend(const LoopHypothesis& loop);
+  void join_landmarks(const LoopHypothesis& loop);
+
+  const SlamOptions& options_;
+  const Executor& executor_;
+  Map& map_;
+  LoopJudge judge_;
+  LoopReport report_;
+  std::vector<PoseGraph::Edge> edges_;
+};
 
 }  // namespace cairn

@@ -14,23 +14,25 @@ constexpr double kDistanceFloor =
     10;  // bits, or units of byte descriptors: no match is told from a perfect one below it
 
 struct Pairs {
+  std::vector<Match> matches;
   std::vector<Eigen::Vector3d> points_in_reference;
   std::vector<Observation> seen_in_current;
 };
 
-Pairs pairs_of(const ObservedFrame& reference, const ObservedFrame& current,
+Pairs pairs_of(const ReferenceView& reference, const ObservedFrame& current,
                const std::vector<Match>& matches) {
   Pairs pairs;
   for (const Match& match : matches) {
     const Eigen::Vector3d& point = reference.points_in_camera[static_cast<std::size_t>(match.train)];
     if (!point.allFinite()) continue;
+    pairs.matches.push_back(match);
     pairs.points_in_reference.push_back(point);
     pairs.seen_in_current.push_back(current.observations[static_cast<std::size_t>(match.query)]);
   }
   return pairs;
 }
 
-std::uint64_t seed_of(const RgbdSlamOptions& options, const ObservedFrame& reference,
+std::uint64_t seed_of(const SlamOptions& options, const ObservedFrame& reference,
                       const ObservedFrame& current) {
   const auto pair = static_cast<std::uint64_t>(reference.frame.value) << 32 |
                     static_cast<std::uint64_t>(current.frame.value);
@@ -56,21 +58,34 @@ KeyframeDecision decide_by_norm(const Motion& motion, double keyframe_threshold,
 
 }  // namespace
 
-Motion estimate_motion(const Rig& rig, const ObservedFrame& reference, const ObservedFrame& current,
-                       const RgbdSlamOptions& options) {
-  const auto all = match_mutual(current.features.descriptors, reference.features.descriptors);
+std::vector<Eigen::Vector3d> points_of(const Map& map, KeyframeId id) {
+  const Keyframe& keyframe = map[id];
+  const Rigid3 camera_from_world = keyframe.world_from_camera.inverse();
+  std::vector<Eigen::Vector3d> points = keyframe.observed.points_in_camera;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const LandmarkId landmark = keyframe.landmarks[i];
+    if (landmark.valid()) points[i] = camera_from_world * map[landmark].point_in_world;
+  }
+  return points;
+}
+
+Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const ObservedFrame& current,
+                       const SlamOptions& options) {
+  const auto all = match_mutual(current.features.descriptors, reference.observed.features.descriptors);
   const auto good = filter_by_distance(all, options.good_match_threshold, kDistanceFloor);
   const Pairs pairs = pairs_of(reference, current, good);
   Motion motion;
   motion.matches = static_cast<int>(pairs.points_in_reference.size());
   if (motion.matches < options.min_good_match) return motion;
   RansacOptions ransac;
-  ransac.seed = seed_of(options, reference, current);
+  ransac.seed = seed_of(options, reference.observed, current);
   const PnpResult rough = solve_pnp_ransac(rig, pairs.points_in_reference, pairs.seen_in_current, ransac);
   if (!rough.found()) return motion;
   const PoseOnlyResult refined =
       refine_pose(rig, pairs.points_in_reference, pairs.seen_in_current, rough.camera_from_world);
   motion.inliers = static_cast<int>(refined.inliers.size());
+  for (const std::int32_t i : refined.inliers)
+    motion.pairs.push_back(pairs.matches[static_cast<std::size_t>(i)]);
   const bool enough =
       motion.inliers >= options.min_inliers && motion.inliers >= options.min_inlier_share * motion.matches;
   motion.found = refined.solved && enough && is_determined(refined.information);
@@ -94,11 +109,11 @@ const char* to_string(KeyframeDecision decision) {
   return "not matched";
 }
 
-KeyframeDecision decide(const Motion& motion, const RgbdSlamOptions& options) {
+KeyframeDecision decide(const Motion& motion, const SlamOptions& options) {
   return decide_by_norm(motion, options.keyframe_threshold, options.max_norm);
 }
 
-KeyframeDecision decide_loop(const Motion& motion, const RgbdSlamOptions& options) {
+KeyframeDecision decide_loop(const Motion& motion, const SlamOptions& options) {
   const bool enough = motion.inliers >= options.loop_min_inliers &&
                       motion.inliers >= options.loop_min_inlier_share * motion.matches;
   if (!enough) return KeyframeDecision::not_matched;

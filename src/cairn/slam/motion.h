@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
-#include "cairn/map/keyframe_map.h"
+#include "cairn/features/matching.h"
+#include "cairn/map/map.h"
 #include "cairn/slam/options.h"
 
 namespace cairn {
@@ -16,12 +19,22 @@ struct Motion {
   int matches = 0;
   int inliers = 0;
   double norm = 0;  ///< motion_norm: rad + m
+  std::vector<Match> pairs;  ///< the inliers: query is the feature of `current`, train that of `reference`
 };
+
+/// What a motion is measured against: a frame, and a point for each of its features, NaN where none is known.
+struct ReferenceView {
+  const ObservedFrame& observed;
+  std::span<const Eigen::Vector3d> points_in_camera;
+};
+
+/// The points of a keyframe's features: those of its landmarks; without one, what its depth says.
+[[nodiscard]] std::vector<Eigen::Vector3d> points_of(const Map& map, KeyframeId keyframe);
 
 /// Matches descriptors, solves P3P in RANSAC and refines on all inliers: points of `reference`, observations
 /// of `current`. Deterministic from (seed, the two frames).
-[[nodiscard]] Motion estimate_motion(const Rig& rig, const ObservedFrame& reference,
-                                     const ObservedFrame& current, const RgbdSlamOptions& options);
+[[nodiscard]] Motion estimate_motion(const Rig& rig, const ReferenceView& reference,
+                                     const ObservedFrame& current, const SlamOptions& options);
 
 /// What a frame's motion against a keyframe means.
 enum class KeyframeDecision {
@@ -34,10 +47,10 @@ enum class KeyframeDecision {
 [[nodiscard]] const char* to_string(KeyframeDecision decision);
 
 /// The four outcomes between neighbours, by motion.norm.
-[[nodiscard]] KeyframeDecision decide(const Motion& motion, const RgbdSlamOptions& options);
+[[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options);
 /// The same for views that need not be neighbours: a loop closure, a frame after being lost. max_norm_lp
 /// bounds the motion, and loop_min_inliers and loop_min_inlier_share must be reached or it counts as not
 /// matched.
-[[nodiscard]] KeyframeDecision decide_loop(const Motion& motion, const RgbdSlamOptions& options);
+[[nodiscard]] KeyframeDecision decide_loop(const Motion& motion, const SlamOptions& options);
 
 }  // namespace cairn

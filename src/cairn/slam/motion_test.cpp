@@ -3,14 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "cairn/core/random.h"
-#include "cairn/slam/graph_edge.h"
-#include "cairn/slam/tracker.h"
 
 namespace cairn {
 namespace {
@@ -21,6 +18,7 @@ constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
 struct Views {
   ObservedFrame reference, current;
   Rigid3 current_from_reference;
+  [[nodiscard]] ReferenceView reference_view() const { return {reference, reference.points_in_camera}; }
 };
 
 void add_feature(ObservedFrame& frame, std::size_t i, const Eigen::Vector3d& point, Random& random) {
@@ -59,7 +57,7 @@ Rigid3 small_motion() {
 
 TEST(EstimateMotion, finds_the_motion) {
   const Views views = make_views(small_motion(), 300, 1);
-  const Motion motion = estimate_motion(kRig, views.reference, views.current, {});
+  const Motion motion = estimate_motion(kRig, views.reference_view(), views.current, {});
   ASSERT_TRUE(motion.found);
   EXPECT_EQ(motion.matches, 300);
   EXPECT_GT(motion.inliers, 240);
@@ -68,13 +66,13 @@ TEST(EstimateMotion, finds_the_motion) {
 }
 
 TEST(EstimateMotion, finds_none_with_few_matches_or_without_depth) {
-  const RgbdSlamOptions options;
+  const SlamOptions options;
   const Views few = make_views(small_motion(), static_cast<std::size_t>(options.min_good_match) - 1, 2);
-  EXPECT_FALSE(estimate_motion(kRig, few.reference, few.current, options).found);
+  EXPECT_FALSE(estimate_motion(kRig, few.reference_view(), few.current, options).found);
   Views flat = make_views(small_motion(), 300, 3);
   for (auto& point : flat.reference.points_in_camera)
     point.setConstant(std::numeric_limits<double>::quiet_NaN());
-  const Motion motion = estimate_motion(kRig, flat.reference, flat.current, options);
+  const Motion motion = estimate_motion(kRig, flat.reference_view(), flat.current, options);
   EXPECT_FALSE(motion.found);
   EXPECT_EQ(motion.matches, 0);
 }
@@ -92,14 +90,14 @@ TEST(EstimateMotion, finds_none_that_the_points_do_not_determine) {
       frame->points_in_camera[i] = point;
     }
   }
-  const Motion motion = estimate_motion(kRig, views.reference, views.current, {});
+  const Motion motion = estimate_motion(kRig, views.reference_view(), views.current, {});
   EXPECT_GE(motion.inliers, 40);
   EXPECT_FALSE(motion.found);
 }
 
 TEST(EstimateMotion, finds_none_between_unrelated_frames) {
   const Views a = make_views(small_motion(), 300, 4), b = make_views(small_motion(), 300, 5);
-  const Motion motion = estimate_motion(kRig, a.reference, b.current, {});
+  const Motion motion = estimate_motion(kRig, a.reference_view(), b.current, {});
   EXPECT_FALSE(motion.found) << motion.inliers;
 }
 
@@ -113,7 +111,7 @@ Motion motion_of(double norm, int matches, int inliers) {
 }
 
 TEST(KeyframeDecision, has_four_outcomes) {
-  RgbdSlamOptions options;
+  SlamOptions options;
   options.keyframe_threshold = 0.1;
   options.max_norm = 0.3;
   EXPECT_EQ(decide(Motion{}, options), KeyframeDecision::not_matched);
@@ -123,7 +121,7 @@ TEST(KeyframeDecision, has_four_outcomes) {
 }
 
 TEST(KeyframeDecision, a_loop_needs_more_evidence_and_may_be_farther) {
-  RgbdSlamOptions options;
+  SlamOptions options;
   options.max_norm = 0.3;
   options.max_norm_lp = 5;
   EXPECT_EQ(decide_loop(motion_of(2, 100, 90), options), KeyframeDecision::keyframe);
@@ -137,42 +135,6 @@ TEST(MotionNorm, adds_the_angle_to_the_way) {
   EXPECT_DOUBLE_EQ(motion_norm({rotation_exp({0, 0.4, 0}), {0, 0, 0.3}}), 0.7);
   EXPECT_NEAR(motion_norm({rotation_exp({0, 4.0, 0}), {0, 0, 0}}), 2 * M_PI - 4.0,
               1e-12);  // never more than pi
-}
-
-/// The edge's error, as the pose graph defines it, of a perturbed motion costs what the motion's information
-/// says.
-TEST(MakeEdge, carries_the_information_over) {
-  const Views views = make_views(small_motion(), 40, 6);
-  const Motion motion = estimate_motion(kRig, views.reference, views.current, {});
-  ASSERT_TRUE(motion.found);
-  const PoseGraph::Edge edge = make_edge({0}, {1}, motion, true);
-  EXPECT_TRUE(edge.robust);
-  Vector6d xi;
-  xi << 2e-4, -1e-4, 3e-4, 2e-4, 1e-4, -4e-4;
-  const Rigid3 perturbed = perturb_left(xi, motion.current_from_reference).inverse();
-  const Rigid3 error = edge.a_from_b.inverse() * perturbed;
-  Vector6d e;
-  e << error.translation, error.rotation.vec();
-  Vector6d floor;
-  floor << Eigen::Vector3d::Constant(0.004), Eigen::Vector3d::Constant(0.010);
-  Matrix6d covariance = motion.information.inverse();
-  covariance.diagonal() += floor.cwiseAbs2();
-  const double expected = xi.dot(covariance.inverse() * xi);
-  EXPECT_NEAR(e.dot(edge.information * e), expected, 0.01 * expected);
-}
-
-TEST(CandidateKeyframes, are_the_last_and_some_others_each_once) {
-  const auto candidates = candidate_keyframes({50}, 5, 7, 1, 2);
-  ASSERT_EQ(candidates.size(), 12U);
-  for (std::int32_t i = 0; i < 5; ++i) EXPECT_EQ(candidates[static_cast<std::size_t>(i)].value, 49 - i);
-  for (std::size_t i = 5; i < 12; ++i) {
-    EXPECT_TRUE(candidates[i].value >= 0 && candidates[i].value < 45);
-    EXPECT_EQ(std::count(candidates.begin(), candidates.end(), candidates[i]), 1);
-  }
-  EXPECT_EQ(candidates, candidate_keyframes({50}, 5, 7, 1, 2));
-  EXPECT_NE(candidates, candidate_keyframes({50}, 5, 7, 1, 3));
-  EXPECT_EQ(candidate_keyframes({3}, 5, 7, 1, 2).size(), 3U);
-  EXPECT_TRUE(candidate_keyframes({0}, 5, 7, 1, 2).empty());
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "cairn/features/stereo_matching.h"
+
 namespace cairn {
 namespace {
 
@@ -45,31 +47,76 @@ Descriptors select(const Descriptors& all, const std::vector<std::size_t>& kept)
   return some;
 }
 
-}  // namespace
-
-Rig rgbd_rig(const Camera& camera, const DepthNoise& noise) {
-  return {camera.fx, camera.fy, camera.cx, camera.cy, noise.baseline};
+/// A frame whose features are not there yet.
+ObservedFrame begin_frame(const Frame& frame) {
+  return {frame.id, frame.stamp_ns, {}, {}, {}};
 }
 
-ObservedFrame observe(const Frame& frame, const Camera& camera, const Extractor& extractor,
-                      const DepthNoise& noise) {
-  const Rig rig = rgbd_rig(camera, noise);
-  const Features all = extractor.extract(frame.gray);
-  ObservedFrame observed{frame.id, frame.stamp_ns, {}, {}, {}};
+void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, ObservedFrame& observed) {
+  observed.features.keypoints.push_back(keypoint);
+  observed.features.keypoints.back().u = static_cast<float>(seen.u);
+  observed.features.keypoints.back().v = static_cast<float>(seen.v);
+  observed.observations.push_back(seen);
+  const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  observed.points_in_camera.push_back(
+      seen.has_disparity() ? rig.point_at(seen.u, seen.v, rig.depth(seen.d)) : none);
+}
+
+}  // namespace
+
+Rig rig_of(const Calibration& calibration, const DepthNoise& noise) {
+  const Camera& camera = calibration.camera;
+  return {camera.fx, camera.fy, camera.cx, camera.cy, calibration.baseline.value_or(noise.baseline)};
+}
+
+Observer::Observer(const Calibration& calibration, const SlamOptions& options)
+    : camera_(calibration.camera),
+      rig_(rig_of(calibration, options.depth_noise)),
+      depth_(options.depth_noise),
+      stereo_(options.stereo_noise),
+      extractor_(make_extractor(options.features)) {}
+
+ObservedFrame Observer::observe(const Frame& frame) const {
+  return frame.right.empty() ? observe_rgbd(frame) : observe_stereo(frame);
+}
+
+ObservedFrame Observer::observe_rgbd(const Frame& frame) const {
+  const Features all = extractor_->extract(frame.gray);
+  ObservedFrame observed = begin_frame(frame);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < all.keypoints.size(); ++i) {
     const Keypoint& keypoint = all.keypoints[i];
-    const auto ray = camera.unproject({static_cast<double>(keypoint.u), static_cast<double>(keypoint.v)});
+    const auto ray = camera_.unproject({static_cast<double>(keypoint.u), static_cast<double>(keypoint.v)});
     if (!ray) continue;
-    const double depth = depth_at(frame.depth, keypoint, rig, noise);
-    const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    const double depth = depth_at(frame.depth, keypoint, rig_, depth_);
     kept.push_back(i);
-    observed.features.keypoints.push_back(keypoint);
-    const Observation seen = make_observation(rig, *ray, keypoint, depth, noise);
-    observed.observations.push_back(seen);
-    observed.points_in_camera.push_back(depth > 0 ? rig.point_at(seen.u, seen.v, depth) : none);
+    add(rig_, make_observation(rig_, *ray, keypoint, depth, depth_), keypoint, observed);
   }
   observed.features.descriptors = select(all.descriptors, kept);
+  return observed;
+}
+
+ObservedFrame Observer::observe_stereo(const Frame& frame) const {
+  Features left = extractor_->extract(frame.gray);
+  const Features right = extractor_->extract(frame.right);
+  StereoMatchOptions matching;
+  matching.min_depth = stereo_.min_depth;
+  const auto matches = match_stereo(rig_, {left, frame.gray}, {right, frame.right}, matching);
+  ObservedFrame observed = begin_frame(frame);
+  for (std::size_t i = 0; i < left.keypoints.size(); ++i) {
+    const Keypoint& keypoint = left.keypoints[i];
+    Observation seen{static_cast<double>(keypoint.u), static_cast<double>(keypoint.v)};
+    seen.sigma_px = static_cast<double>(keypoint.sigma_px);
+    if (matches[i] && matches[i]->measured) {
+      const double sigma = std::hypot(matches[i]->sigma_disparity_px, stereo_.sigma_floor_px);
+      if (matches[i]->disparity > stereo_.min_disparity_sigmas * sigma) {
+        seen.d = matches[i]->disparity;
+        seen.sigma_d_px = sigma;
+      }
+    }
+    add(rig_, seen, keypoint, observed);
+  }
+  observed.features.descriptors = std::move(left.descriptors);
   return observed;
 }
 

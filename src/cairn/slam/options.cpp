@@ -17,7 +17,7 @@ void check(bool holds, const char* name, const char* expected, double found) {
 
 }  // namespace
 
-void RgbdSlamOptions::validate() const {
+void SlamOptions::validate() const {
   features.validate();
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   check(positive(depth_noise.baseline), "depth_noise.baseline", "metres above 0", depth_noise.baseline);

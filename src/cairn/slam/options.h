@@ -20,18 +20,50 @@ struct DepthNoise {
   double max_depth = 8.0;    ///< metres; farther is noise
 };
 
-/// RGB-D SLAM. The names of the parameters are those of the files that RGB-D SLAM programs have long read.
-struct RgbdSlamOptions {
+/// How the left-right matches of a stereo sequence become disparities.
+struct StereoNoise {
+  double min_depth = 0.5;       ///< metres: with the baseline, the largest disparity looked for
+  double min_disparity_sigmas = 5.0;  ///< a disparity of fewer standard deviations says nothing of the depth
+  /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
+  /// disparities of an image alike, which many features do not average out.
+  double sigma_floor_px = 0.3;
+};
+
+/// Looking for what the map holds in the next frame.
+struct TrackingOptions {
+  double motion_radius_px = 15;  ///< around where the last motion would show a point, at the lowest level
+  double map_radius_px = 4;      ///< the same once the pose is known to some pixels
+  int local_keyframes = 10;      ///< that show most of what the frame shows
+  int local_neighbours = 5;      ///< of each, that share most landmarks with it
+};
+
+/// Keeping the map right while it grows.
+struct MappingOptions {
+  /// Radians, plus the way over the median depth: a keyframe is due when the view has changed by as much.
+  double view_change = 0.05;
+  int trial_keyframes = 3;     ///< a landmark must be seen again within so many, or it is erased
+  int window_keyframes = 12;   ///< that are adjusted together after each new one
+  int window_fixed = 20;       ///< others that see the same landmarks and hold them in place
+  int window_lag = 3;          ///< frames: the adjustment runs beside tracking and is taken over after so many
+  double redundant_share = 0.9;  ///< of a keyframe's landmarks seen by three others: it is erased
+};
+
+/// SLAM with an RGB-D or stereo camera. The names of the older parameters are those of the files that RGB-D
+/// SLAM programs have long read.
+struct SlamOptions {
   FeatureOptions features;
   DepthNoise depth_noise;
+  StereoNoise stereo_noise;
+  TrackingOptions tracking;
+  MappingOptions mapping;
   double good_match_threshold = 10;  ///< a match may be this many times worse than the pair's best
   int min_good_match = 20;           ///< matches; fewer cannot be told from chance
   int min_inliers = 20;              ///< matches that agree with one motion; fewer happen by chance
   /// Share of the matches that must be inliers: true motions had more than 0.38 on all recordings tried, at
   /// any speed, chance has less than 0.14.
   double min_inlier_share = 0.15;
-  double max_norm = 1.0;            ///< rad + m between neighbours; more is too far: probably wrong
-  double max_norm_lp = 5.0;         ///< rad + m, the same for loop closures and after being lost
+  double max_norm = 10.0;           ///< rad + m between neighbours; more is too far: probably wrong
+  double max_norm_lp = 20.0;        ///< rad + m, the same for loop closures and after being lost
   double keyframe_threshold = 0.1;  ///< rad + m; less is too close to the last keyframe
   int weak_tracking = 80;           ///< inliers; with fewer a keyframe is made before the view is lost
   /// A loop closure, and a pose after being lost, must rest on more: they have no neighbour to contradict
@@ -39,10 +71,12 @@ struct RgbdSlamOptions {
   int loop_min_inliers = 30;
   double loop_min_inlier_share = 0.2;
   bool check_loop_closure = true;
-  int nearby_loops = 5;               ///< the last so many keyframes are tried
-  int random_loops = 5;               ///< and so many of all others
+  int place_loops = 3;                ///< keyframes that look most like the new one are tried
+  int nearby_loops = 0;               ///< so are the last so many keyframes
+  int random_loops = 0;               ///< and so many of all others
   int relocalization_keyframes = 20;  ///< recent keyframes tried when lost
-  bool odometry = false;              ///< stop after tracking: no loops, no graph
+  int lost_frames = 30;  ///< good images that fit nowhere: after so many a second part of the map begins
+  bool odometry = false;  ///< stop after tracking: no loops, no graph
   std::uint64_t seed = 1;
 
   /// InputError naming the parameter that is out of range.

@@ -4,125 +4,152 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/core/random.h"
-#include "cairn/slam/graph_edge.h"
+#include "cairn/slam/local_map.h"
+#include "cairn/slam/relocalizer.h"
 
 namespace cairn {
 namespace {
 
-int points_with_depth(const ObservedFrame& frame) {
-  return static_cast<int>(std::count_if(frame.observations.begin(), frame.observations.end(),
-                                        [](const Observation& o) { return o.has_disparity(); }));
+/// The points that a frame's features show: of landmarks, or by depth, in the world.
+std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& observed,
+                                          const TrackedFrame& tracked) {
+  std::vector<Eigen::Vector3d> points(observed.observations.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const LandmarkId id = tracked.landmarks[i];
+    const bool alive = id.valid() && !map[id].erased();
+    points[i] = alive ? map[id].point_in_world : tracked.world_from_camera * observed.points_in_camera[i];
+  }
+  return points;
 }
 
 }  // namespace
 
-std::vector<KeyframeId> candidate_keyframes(KeyframeId before, int nearby, int random, std::uint64_t seed,
-                                            std::uint64_t stream) {
-  std::vector<KeyframeId> candidates;
-  const int near_count = std::min(nearby, before.value);
-  for (int i = 1; i <= near_count; ++i) candidates.push_back({before.value - i});
-  std::vector<std::int32_t> others(static_cast<std::size_t>(before.value - near_count));
-  for (std::size_t i = 0; i < others.size(); ++i) others[i] = static_cast<std::int32_t>(i);
-  Random numbers(seed, stream);
-  const auto wanted = std::min(static_cast<std::size_t>(random), others.size());
-  for (std::size_t i = 0; i < wanted; ++i) {  // Fisher-Yates, as far as needed
-    std::swap(others[i], others[i + numbers.index(static_cast<std::uint32_t>(others.size() - i))]);
-    candidates.push_back({others[i]});
+Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Map& map)
+    : options_(options), executor_(executor), map_(map) {}
+
+SearchTargets Tracker::targets_of_last(const FrameView& view, double radius_px) const {
+  SearchTargets targets;
+  const auto points = points_shown(map_, observed_, last_);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite()) continue;
+    const Appearance appearance{&observed_.features.descriptors, i, observed_.features.keypoints[i],
+                                last_.world_from_camera.translation};
+    const auto place = predict_place(view, points[i], appearance, radius_px);
+    if (!place) continue;
+    const LandmarkId id = last_.landmarks[i];
+    targets.points_in_world.push_back(points[i]);
+    targets.landmarks.push_back(id.valid() && !map_[id].erased() ? id : LandmarkId{});
+    targets.places.push_back(*place);
+    targets.appearances.push_back(appearance);
   }
-  return candidates;
+  return targets;
 }
 
-Tracker::Tracker(const RgbdSlamOptions& options, const Executor& executor, KeyframeMap& map,
-                 std::vector<PoseGraph::Edge>& edges)
-    : options_(options), executor_(executor), map_(map), edges_(edges) {}
-
-const Keyframe& Tracker::keyframe(KeyframeId id) const {
-  return map_.keyframes[static_cast<std::size_t>(id.value)];
-}
-
-Tracker::Found Tracker::match(KeyframeId reference, const ObservedFrame& frame) const {
-  Found found{reference, estimate_motion(map_.rig, keyframe(reference).observed, frame, options_), {}};
-  found.decision = decide(found.motion, options_);
-  return found;
-}
-
-/// Against the reference keyframe; failing that, against the last tracked frame, made a keyframe for it;
-/// failing that, against many keyframes.
-Tracker::Found Tracker::find_motion(const ObservedFrame& frame) {
-  Found found;
-  if (!lost_) {
-    found = match(reference_, frame);
-    if (!found.ok() && previous_) {
-      reference_ = add_keyframe(std::move(previous_->observed), previous_->found);
-      found = match(reference_, frame);
-    }
+std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) const {
+  const Rigid3 predicted = current_from_last_ * last_.world_from_camera.inverse();
+  const FrameView view{map_.rig(), frame, predicted};
+  const MatchOptions matching{descriptor_limit(frame.features.descriptors), 0, true};
+  for (const double widening : {1.0, 3.0}) {
+    const auto targets = targets_of_last(view, widening * options_.tracking.motion_radius_px);
+    const auto found = find_targets(targets, view, {}, matching);
+    TrackedFrame current;
+    const bool enough = static_cast<int>(found.size()) >= options_.min_good_match;
+    if (enough && solve_pose(view, found, options_.min_inliers, current) &&
+        2 * current.inliers >= current.matches)
+      return current;
   }
-  previous_.reset();
-  if (found.ok()) return found;
-  const Found again = relocalize(frame);
-  return again.ok() ? again : found;
+  return std::nullopt;
 }
 
-Tracker::Found Tracker::relocalize(const ObservedFrame& frame) const {
-  const KeyframeId end{static_cast<std::int32_t>(map_.keyframes.size())};
-  const auto stream =
-      0x100000000ULL + static_cast<std::uint64_t>(frame.frame.value);  // apart from the loop closer's streams
-  const auto candidates = candidate_keyframes(end, options_.relocalization_keyframes, options_.random_loops,
-                                              options_.seed, stream);
-  const auto found = executor_.map<Found>(candidates.size(), [&](std::size_t i) {
-    Found one = match(candidates[i], frame);
-    one.decision = decide_loop(one.motion, options_);
-    return one;
-  });
-  const auto best = std::max_element(found.begin(), found.end(), [](const Found& a, const Found& b) {
-    return (a.ok() ? a.motion.inliers : -1) < (b.ok() ? b.motion.inliers : -1);
-  });
-  return best == found.end() ? Found{} : *best;
-}
-
-KeyframeId Tracker::add_keyframe(ObservedFrame&& frame, const std::optional<Found>& found) {
-  const KeyframeId id{static_cast<std::int32_t>(map_.keyframes.size())};
-  Rigid3 world_from_camera;
-  if (found) {
-    edges_.push_back(make_edge(found->reference, id, found->motion, false));
-    world_from_camera =
-        keyframe(found->reference).world_from_camera * found->motion.current_from_reference.inverse();
+std::optional<TrackedFrame> Tracker::match_reference(const ObservedFrame& frame, FrameTrack& track) const {
+  const Rigid3 last_from_world = last_.world_from_camera.inverse();
+  std::vector<Eigen::Vector3d> points = points_shown(map_, observed_, last_);
+  for (Eigen::Vector3d& point : points) point = last_from_world * point;
+  const Motion motion = estimate_motion(map_.rig(), {observed_, points}, frame, options_);
+  track.decision = decide(motion, options_);
+  track.matches = motion.matches;
+  track.inliers = motion.inliers;
+  if (track.decision == KeyframeDecision::not_matched || track.decision == KeyframeDecision::too_far)
+    return std::nullopt;
+  TrackedFrame current;
+  current.world_from_camera = last_.world_from_camera * motion.current_from_reference.inverse();
+  current.landmarks.resize(frame.observations.size());
+  for (const Match& pair : motion.pairs) {
+    const LandmarkId id = last_.landmarks[static_cast<std::size_t>(pair.train)];
+    if (id.valid() && !map_[id].erased()) current.landmarks[static_cast<std::size_t>(pair.query)] = id;
   }
-  map_.keyframes.push_back({id, std::move(frame), world_from_camera});
-  return id;
+  current.matches = motion.matches;
+  current.inliers = motion.inliers;
+  return current;
 }
 
-FrameTrack Tracker::begin_map(ObservedFrame&& frame) {
-  FrameTrack track{frame.frame, frame.stamp_ns, {}, false, std::nullopt, {}, 0, 0};
-  if (points_with_depth(frame) < options_.min_good_match) return track;
-  reference_ = add_keyframe(std::move(frame), std::nullopt);
-  track.decision = KeyframeDecision::keyframe;
+std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, FrameTrack& track) {
+  auto found = relocalize(map_, frame, options_, executor_);
+  if (!found) return std::nullopt;
+  track.relocalized = lost_;
+  reference_ = found->keyframe;
+  return std::move(found->tracked);
+}
+
+bool Tracker::is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const {
+  if (current.inliers < options_.weak_tracking) return true;
+  const Rigid3 motion = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
+  if (motion_norm(motion) <= options_.keyframe_threshold) return false;
+  const double depth = median_depth(frame);
+  const double view_change = rotation_angle(motion.rotation) + motion.translation.norm() / depth;
+  return !(view_change <= options_.mapping.view_change);  // without a depth, too
+}
+
+/// The keyframe that shows most of what the frame shows.
+void Tracker::refer_to_best(const TrackedFrame& current) {
+  const auto views = keyframes_showing(map_, current.landmarks);
+  if (!views.empty()) reference_ = views.front().keyframe;
+}
+
+void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track) {
+  current_from_last_ =
+      lost_ ? Rigid3{} : current.world_from_camera.inverse() * last_.world_from_camera;
+  refer_to_best(current);
+  track.decision = is_keyframe_due(frame, current) ? KeyframeDecision::keyframe : KeyframeDecision::too_close;
+  track.matches = current.matches;
+  track.inliers = current.inliers;
   track.reference = reference_;
-  return track;
+  reference_from_last_ = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
+  track.reference_from_frame = reference_from_last_;
+  observed_ = std::move(frame);
+  last_ = std::move(current);
 }
 
 FrameTrack Tracker::track(ObservedFrame&& frame) {
-  if (map_.keyframes.empty()) return begin_map(std::move(frame));
-  const bool was_lost = lost_;
-  Found found = find_motion(frame);
-  FrameTrack track{frame.frame, frame.stamp_ns,       found.decision,      false, std::nullopt,
-                   {},          found.motion.matches, found.motion.inliers};
-  lost_ = !found.ok();
-  if (lost_) return track;
-  track.relocalized = was_lost;
-  const bool weak = found.motion.inliers < options_.weak_tracking;
-  if (found.decision == KeyframeDecision::keyframe || weak) {
-    reference_ = add_keyframe(std::move(frame), found);
-    track.decision = KeyframeDecision::keyframe;
-    track.reference = reference_;
-    return track;
+  FrameTrack track{frame.frame, frame.stamp_ns, {}, false, std::nullopt, {}, 0, 0};
+  std::optional<TrackedFrame> current;
+  if (!lost_) {
+    current = follow_motion(frame);
+    if (!current) current = match_reference(frame, track);
+    if (current) (void)refine_in_map(map_, frame, options_, *current);
   }
-  reference_ = found.reference;
-  track.reference = found.reference;
-  track.reference_from_frame = found.motion.current_from_reference.inverse();
-  previous_ = Previous{std::move(frame), std::move(found)};
+  if (!current && !map_.keyframes().empty()) current = find_again(frame, track);
+  if (current) {
+    accept(std::move(frame), std::move(*current), track);
+  } else {
+    observed_ = std::move(frame);
+  }
+  lost_ = !current.has_value();
   return track;
+}
+
+void Tracker::refer_to(KeyframeId keyframe) {
+  reference_ = keyframe;
+  lost_ = false;
+  reference_from_last_ = {};
+  follow_map();
+}
+
+void Tracker::follow_map() {
+  if (lost_) return;
+  last_.world_from_camera = map_.world_from_camera(reference_) * reference_from_last_;
+  if (observed_.frame != map_[reference_].observed.frame) return;
+  last_.landmarks = map_[reference_].landmarks;
 }
 
 }  // namespace cairn

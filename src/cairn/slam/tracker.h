@@ -2,12 +2,9 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "cairn/core/executor.h"
-#include "cairn/map/keyframe_map.h"
-#include "cairn/map/pose_graph.h"
-#include "cairn/slam/motion.h"
+#include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
 
@@ -26,49 +23,44 @@ struct FrameTrack {
   [[nodiscard]] bool tracked() const { return reference.has_value(); }
 };
 
-/// Follows the camera from keyframe to keyframe, and adds keyframes and the edges between them.
-/// Deterministic.
+/// Follows the camera through the map: predicts the pose by the last motion, finds in the image what the last
+/// frame showed, then what the map around it holds, and solves for the pose of the camera. Falls back to
+/// matching without prediction, then to relocalisation. It reads the map and never writes it. Deterministic.
 class Tracker {
  public:
-  Tracker(const RgbdSlamOptions& options, const Executor& executor, KeyframeMap& map,
-          std::vector<PoseGraph::Edge>& edges);
+  Tracker(const SlamOptions& options, const Executor& executor, const Map& map);
 
-  /// Takes the next frame. Where it became a keyframe, it is the last of the map.
+  /// The pose of the next frame, which stays here as last(). Its decision is keyframe where one is due.
   FrameTrack track(ObservedFrame&& frame);
+  /// The last frame that was given to track or begin, and what is known of it; meaningful while not lost.
+  [[nodiscard]] const ObservedFrame& last_observed() const { return observed_; }
+  [[nodiscard]] const TrackedFrame& last() const { return last_; }
+  [[nodiscard]] KeyframeId reference() const { return reference_; }
+  [[nodiscard]] bool lost() const { return lost_; }
+
+  /// The last frame has become this keyframe.
+  void refer_to(KeyframeId keyframe);
+  /// The map's poses and landmarks have been adjusted: the last frame moves with its reference.
+  void follow_map();
 
  private:
-  struct Found {
-    KeyframeId reference;
-    Motion motion;
-    KeyframeDecision decision = KeyframeDecision::not_matched;
-    [[nodiscard]] bool ok() const {
-      return decision == KeyframeDecision::too_close || decision == KeyframeDecision::keyframe;
-    }
-  };
-  struct Previous {  // the last tracked frame, while it is no keyframe
-    ObservedFrame observed;
-    Found found;
-  };
+  [[nodiscard]] std::optional<TrackedFrame> follow_motion(const ObservedFrame& frame) const;
+  [[nodiscard]] std::optional<TrackedFrame> match_reference(const ObservedFrame& frame, FrameTrack& track) const;
+  [[nodiscard]] std::optional<TrackedFrame> find_again(const ObservedFrame& frame, FrameTrack& track);
+  [[nodiscard]] SearchTargets targets_of_last(const FrameView& view, double radius_px) const;
+  [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const;
+  void refer_to_best(const TrackedFrame& current);
+  void accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track);
 
-  [[nodiscard]] const Keyframe& keyframe(KeyframeId id) const;
-  [[nodiscard]] Found match(KeyframeId reference, const ObservedFrame& frame) const;
-  [[nodiscard]] Found find_motion(const ObservedFrame& frame);
-  [[nodiscard]] Found relocalize(const ObservedFrame& frame) const;
-  KeyframeId add_keyframe(ObservedFrame&& frame, const std::optional<Found>& found);
-  FrameTrack begin_map(ObservedFrame&& frame);
-
-  const RgbdSlamOptions& options_;
+  const SlamOptions& options_;
   const Executor& executor_;
-  KeyframeMap& map_;
-  std::vector<PoseGraph::Edge>& edges_;
+  const Map& map_;
   KeyframeId reference_;
-  std::optional<Previous> previous_;
-  bool lost_ = false;
+  ObservedFrame observed_;
+  TrackedFrame last_;
+  Rigid3 reference_from_last_;
+  Rigid3 current_from_last_;  // the last motion, with which the next one is predicted
+  bool lost_ = true;
 };
-
-/// `nearby` keyframes before `before` (itself excluded), nearest first, then `random` of all earlier ones,
-/// drawn without replacement from (seed, stream).
-[[nodiscard]] std::vector<KeyframeId> candidate_keyframes(KeyframeId before, int nearby, int random,
-                                                          std::uint64_t seed, std::uint64_t stream);
 
 }  // namespace cairn

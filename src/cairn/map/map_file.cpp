@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/keyframe_map_file.h"
+#include "cairn/map/map_file.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::string_view kMagic = "CAIRNFRM";
 constexpr std::uint32_t kVersion = 1;
-constexpr std::int32_t kNoLandmark = -1;
 
 template <class Value>
 void append(std::string& bytes, Value value) {
@@ -34,28 +33,30 @@ std::string lower(std::string text) {
   return text;
 }
 
-const Descriptors& descriptors_of(const KeyframeMap& map) {
-  return map.keyframes.front().observed.features.descriptors;
+const Descriptors& descriptors_of(const Map& map) {
+  return map[map.keyframe_ids().front()].observed.features.descriptors;
 }
 
-std::string format_map_json(const KeyframeMap& map) {
+std::string format_map_json(const Map& map) {
   std::size_t features = 0;
-  for (const Keyframe& keyframe : map.keyframes) features += keyframe.observed.observations.size();
-  const Rig& rig = map.rig;
+  const auto keyframes = map.keyframe_ids();
+  for (const KeyframeId id : keyframes) features += map[id].observed.observations.size();
+  const Rig& rig = map.rig();
   return fmt::format(
       "{{\n  \"format\": \"cairn keyframe map\",\n  \"version\": {},\n  \"frame\": \"camera of the first "
       "keyframe\",\n"
       "  \"rig\": {{\"fx\": {}, \"fy\": {}, \"cx\": {}, \"cy\": {}, \"baseline\": {}}},\n"
       "  \"descriptor\": {{\"name\": \"{}\", \"norm\": \"{}\", \"bytes\": {}}},\n"
-      "  \"keyframes\": {},\n  \"features\": {},\n  \"landmarks\": 0\n}}\n",
-      kVersion, rig.fx, rig.fy, rig.cx, rig.cy, rig.baseline, map.descriptor,
+      "  \"keyframes\": {},\n  \"features\": {},\n  \"landmarks\": {}\n}}\n",
+      kVersion, rig.fx, rig.fy, rig.cx, rig.cy, rig.baseline, map.descriptor(),
       descriptors_of(map).norm() == Norm::hamming ? "hamming" : "l2", descriptors_of(map).bytes(),
-      map.keyframes.size(), features);
+      keyframes.size(), features, map.landmark_ids().size());
 }
 
 }  // namespace
 
-std::string format_frame_file(const ObservedFrame& frame) {
+std::string format_frame_file(const Keyframe& keyframe) {
+  const ObservedFrame& frame = keyframe.observed;
   const Descriptors& descriptors = frame.features.descriptors;
   require(descriptors.count() == frame.observations.size(), "each observation has a descriptor");
   std::string bytes(kMagic);
@@ -67,7 +68,7 @@ std::string format_frame_file(const ObservedFrame& frame) {
   for (std::size_t i = 0; i < descriptors.count(); ++i) {
     const Observation& seen = frame.observations[i];
     append(bytes, static_cast<std::uint32_t>(i));
-    append(bytes, kNoLandmark);
+    append(bytes, keyframe.landmarks[i].value);
     append(bytes, static_cast<float>(seen.u));
     append(bytes, static_cast<float>(seen.v));
     append(bytes, static_cast<float>(seen.d));
@@ -77,18 +78,19 @@ std::string format_frame_file(const ObservedFrame& frame) {
   return bytes;
 }
 
-void write_keyframe_map(const std::filesystem::path& folder, const KeyframeMap& map) {
-  require(!map.keyframes.empty(), "a map to write has keyframes");
+void write_map(const std::filesystem::path& folder, const Map& map) {
+  require(!map.keyframe_ids().empty(), "a map to write has keyframes");
   std::error_code error;
   std::filesystem::create_directories(folder / "frames", error);
   if (error)
     throw InputError(
         {folder.string(), 0, "to make the folder", error.message(), "Check the path and the disk."});
   Trajectory poses;
-  for (const Keyframe& keyframe : map.keyframes) {
+  for (const KeyframeId id : map.keyframe_ids()) {
+    const Keyframe& keyframe = map[id];
     poses.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
-    const std::string name = fmt::format("{:06}.{}", keyframe.observed.frame.value, lower(map.descriptor));
-    write_file(folder / "frames" / name, format_frame_file(keyframe.observed));
+    const std::string name = fmt::format("{:06}.{}", keyframe.observed.frame.value, lower(map.descriptor()));
+    write_file(folder / "frames" / name, format_frame_file(keyframe));
   }
   write_file(folder / "poses.txt", format_tum_trajectory(poses));
   write_file(folder / "map.json", format_map_json(map));

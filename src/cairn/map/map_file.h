@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cairn/map/keyframe_map.h"
+#include "cairn/map/map.h"
 
 namespace cairn {
 
@@ -12,9 +12,9 @@ namespace cairn {
 /// (world_from_camera of each keyframe, TUM format) and frames/NNNNNN.<descriptor> (pixels, disparities and
 /// descriptors, named by the position of the frame in its sequence). The layout, with a reader in Python, is
 /// docs/map_format.md.
-void write_keyframe_map(const std::filesystem::path& folder, const KeyframeMap& map);
+void write_map(const std::filesystem::path& folder, const Map& map);
 
 /// The contents of one frames/ file.
-[[nodiscard]] std::string format_frame_file(const ObservedFrame& frame);
+[[nodiscard]] std::string format_frame_file(const Keyframe& keyframe);
 
 }  // namespace cairn

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "cairn/core/id.h"
@@ -21,17 +20,7 @@ struct ObservedFrame {
   std::vector<Eigen::Vector3d> points_in_camera;  ///< one per feature; NaN where depth is unknown
 };
 
-struct Keyframe {
-  KeyframeId id;
-  ObservedFrame observed;
-  Rigid3 world_from_camera;
-};
-
-/// Keyframes of one run, data only. The world is the first keyframe's camera frame.
-struct KeyframeMap {
-  Rig rig;
-  std::string descriptor = "ORB";   ///< name of the descriptors' kind, as in FeatureOptions
-  std::vector<Keyframe> keyframes;  ///< keyframe k has id k
-};
+/// Median of the features' depths, metres; NaN where none has a depth.
+[[nodiscard]] double median_depth(const ObservedFrame& frame);
 
 }  // namespace cairn

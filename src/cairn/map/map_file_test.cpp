@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/keyframe_map_file.h"
+#include "cairn/map/map_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -27,6 +27,13 @@ ObservedFrame frame_with_two_features() {
   return frame;
 }
 
+Keyframe keyframe_with_two_features() {
+  Keyframe keyframe;
+  keyframe.observed = frame_with_two_features();
+  keyframe.landmarks.resize(2);
+  return keyframe;
+}
+
 template <class Value>
 Value at(const std::string& bytes, std::size_t offset) {
   Value value;
@@ -35,7 +42,7 @@ Value at(const std::string& bytes, std::size_t offset) {
 }
 
 TEST(FrameFile, has_the_documented_layout) {
-  const std::string bytes = format_frame_file(frame_with_two_features());
+  const std::string bytes = format_frame_file(keyframe_with_two_features());
   constexpr std::size_t kHeader = 28, kRecord = 23;
   ASSERT_EQ(bytes.size(), kHeader + 2 * kRecord + 4);
   EXPECT_EQ(bytes.substr(0, 8), "CAIRNFRM");
@@ -55,14 +62,16 @@ TEST(FrameFile, has_the_documented_layout) {
             crc32(std::string_view(bytes).substr(0, bytes.size() - 4)));
 }
 
-TEST(KeyframeMapFile, is_a_folder_with_poses_and_frames) {
+TEST(MapFile, is_a_folder_with_poses_and_frames) {
   const fs::path folder = fs::temp_directory_path() / ("cairn_map_test_" + std::to_string(::getpid()));
-  KeyframeMap map;
-  map.rig = {525, 525, 319.5, 239.5, 0.075};
-  map.descriptor = "ORB";
-  map.keyframes.push_back({{0}, frame_with_two_features(), {}});
-  write_keyframe_map(folder, map);
-  EXPECT_EQ(read_file(folder / "frames" / "000007.orb"), format_frame_file(map.keyframes[0].observed));
+  Map map({525, 525, 319.5, 239.5, 0.075}, "ORB");
+  const KeyframeId keyframe = map.add_keyframe(frame_with_two_features(), {}, {}, 0);
+  const LandmarkId landmark = map.add_landmark({0, 0, 2}, {keyframe, 1});
+  write_map(folder, map);
+  const std::string frame = read_file(folder / "frames" / "000007.orb");
+  EXPECT_EQ(frame, format_frame_file(map[keyframe]));
+  EXPECT_EQ(at<std::int32_t>(frame, 28 + 4), -1);
+  EXPECT_EQ(at<std::int32_t>(frame, 28 + 23 + 4), landmark.value);
   EXPECT_NE(read_file(folder / "poses.txt").find("\n1.500000000 0.000000000"), std::string::npos);
   EXPECT_NE(read_file(folder / "map.json")
                 .find("\"descriptor\": {\"name\": \"ORB\", \"norm\": \"hamming\", \"bytes\": 3}"),

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cairn/core/id.h"
+#include "cairn/map/observed_frame.h"
+
+namespace cairn {
+
+/// Feature `feature` of a keyframe shows a landmark.
+struct Sighting {
+  KeyframeId keyframe;
+  std::int32_t feature = -1;
+  auto operator<=>(const Sighting&) const = default;
+};
+
+struct Landmark {
+  LandmarkId id;
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
+  std::vector<Sighting> sightings;  ///< by keyframe, increasing, one for each; none: erased
+
+  [[nodiscard]] bool erased() const { return sightings.empty(); }
+};
+
+struct Keyframe {
+  KeyframeId id;
+  ObservedFrame observed;             ///< empty where erased
+  std::vector<LandmarkId> landmarks;  ///< one per feature; not valid where it shows none
+  Rigid3 world_from_camera;           ///< where not erased: ask Map::world_from_camera
+  KeyframeId parent;                  ///< an earlier keyframe that it was placed by; not valid for a first
+  Rigid3 parent_from_camera;          ///< of an erased one: where it was when it was erased
+  std::int32_t part = 0;              ///< keyframes of different parts have no common world
+  bool erased = false;                ///< redundant: only its place is kept, relative to its parent
+};
+
+/// Keyframes and the landmarks they show, each knowing the other. Ids are positions and stay valid: what is
+/// erased leaves a gap. The world of part 0 is the first keyframe's camera frame.
+class Map {
+ public:
+  Map() = default;
+  Map(const Rig& rig, std::string descriptor) : rig_(rig), descriptor_(std::move(descriptor)) {}
+
+  [[nodiscard]] const Rig& rig() const { return rig_; }
+  /// Name of the descriptors' kind, as in FeatureOptions.
+  [[nodiscard]] const std::string& descriptor() const { return descriptor_; }
+  /// By id, erased ones included.
+  [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  [[nodiscard]] const std::vector<Landmark>& landmarks() const { return landmarks_; }
+  [[nodiscard]] const Keyframe& operator[](KeyframeId id) const { return keyframes_[index(id)]; }
+  [[nodiscard]] const Landmark& operator[](LandmarkId id) const { return landmarks_[index(id)]; }
+  /// Those that are not erased, increasing.
+  [[nodiscard]] std::vector<KeyframeId> keyframe_ids() const;
+  [[nodiscard]] std::vector<LandmarkId> landmark_ids() const;
+  /// Of any keyframe, also an erased one.
+  [[nodiscard]] Rigid3 world_from_camera(KeyframeId id) const;
+  /// The part that a keyframe belongs to, also an erased one.
+  [[nodiscard]] std::int32_t part_of(KeyframeId id) const;
+
+  KeyframeId add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_camera, KeyframeId parent,
+                          std::int32_t part);
+  /// A landmark that `first` shows; the feature shows no other.
+  LandmarkId add_landmark(const Eigen::Vector3d& point_in_world, Sighting first);
+  /// The feature shows no other landmark, the keyframe no other feature of this one.
+  void add_sighting(LandmarkId landmark, Sighting sighting);
+  /// Does nothing where there is no such sighting. A landmark without sightings is erased.
+  void remove_sighting(LandmarkId landmark, KeyframeId keyframe);
+  /// `gone` becomes `kept`: its sightings go over, except in keyframes that show both, where they end.
+  void merge(LandmarkId gone, LandmarkId kept);
+  void erase(LandmarkId landmark);
+  /// Its sightings end; its place stays known relative to its parent.
+  void erase(KeyframeId keyframe);
+  void move(KeyframeId keyframe, const Rigid3& world_from_camera);
+  void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);
+  void set_part(KeyframeId keyframe, std::int32_t part);
+
+ private:
+  template <class AnyId>
+  [[nodiscard]] static std::size_t index(AnyId id) {
+    return static_cast<std::size_t>(id.value);
+  }
+  [[nodiscard]] Keyframe& keyframe(KeyframeId id) { return keyframes_[index(id)]; }
+  [[nodiscard]] Landmark& landmark(LandmarkId id) { return landmarks_[index(id)]; }
+
+  Rig rig_;
+  std::string descriptor_ = "ORB";
+  std::vector<Keyframe> keyframes_;
+  std::vector<Landmark> landmarks_;
+};
+
+}  // namespace cairn

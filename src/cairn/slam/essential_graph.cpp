@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/essential_graph.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/slam/local_map.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kManyShared = 100;  // landmarks
+
+PoseGraph::Edge edge_as_placed(const Map& map, KeyframeId a, KeyframeId b) {
+  const Rigid3 a_from_b = map[a].world_from_camera.inverse() * map[b].world_from_camera;
+  return {a.value, b.value, a_from_b, edge_information(map, b), false};
+}
+
+/// The nearest ancestor that is not erased.
+KeyframeId living_parent(const Map& map, KeyframeId id) {
+  KeyframeId parent = map[id].parent;
+  while (parent.valid() && map[parent].erased) parent = map[parent].parent;
+  return parent;
+}
+
+void add_edges(const Map& map, KeyframeId id, PoseGraph& graph) {
+  const KeyframeId parent = living_parent(map, id);
+  if (parent.valid()) graph.edges.push_back(edge_as_placed(map, parent, id));
+  for (const SharedView& view : covisible_keyframes(map, id, kManyShared)) {
+    if (view.keyframe < id && view.keyframe != parent)
+      graph.edges.push_back(edge_as_placed(map, view.keyframe, id));
+  }
+}
+
+}  // namespace
+
+Matrix6d edge_information(const Map& map, KeyframeId keyframe) {
+  // With these the loop edges of a real Kinect recording cost about as much as they have degrees of freedom.
+  constexpr double kRotationStd = 0.004;  // radians: 2 px at 525 px focal length
+  constexpr double kMinTranslationStd = 0.005;
+  return information_from_std(std::fmax(kMinTranslationStd, kRotationStd * median_depth(map[keyframe].observed)),
+                              kRotationStd);
+}
+
+PoseGraph essential_graph(const Map& map, std::int32_t part, std::span<const PoseGraph::Edge> loops) {
+  PoseGraph graph;
+  for (const KeyframeId id : map.keyframe_ids()) {
+    if (map[id].part != part) continue;
+    graph.vertices.push_back({id.value, map[id].world_from_camera});
+    add_edges(map, id, graph);
+  }
+  const auto is_inside = [&](std::int64_t id) {
+    const Keyframe& keyframe = map[KeyframeId{static_cast<std::int32_t>(id)}];
+    return !keyframe.erased && keyframe.part == part;
+  };
+  for (const PoseGraph::Edge& loop : loops)
+    if (is_inside(loop.a) && is_inside(loop.b)) graph.edges.push_back(loop);
+  if (!graph.vertices.empty()) graph.fixed = {graph.vertices.front().id};
+  return graph;
+}
+
+void move_to(const PoseGraph& graph, Map& map) {
+  std::vector<Rigid3> new_from_old(map.keyframes().size());
+  for (const PoseGraph::Vertex& vertex : graph.vertices) {
+    const KeyframeId id{static_cast<std::int32_t>(vertex.id)};
+    new_from_old[static_cast<std::size_t>(id.value)] =
+        vertex.world_from_vertex * map[id].world_from_camera.inverse();
+    map.move(id, vertex.world_from_vertex);
+  }
+  for (const LandmarkId id : map.landmark_ids()) {
+    const auto keyframe = static_cast<std::size_t>(map[id].sightings.front().keyframe.value);
+    map.move(id, new_from_old[keyframe] * map[id].point_in_world);
+  }
+}
+
+void move_part(std::int32_t part, std::int32_t into, const Rigid3& into_from_part, Map& map) {
+  for (const LandmarkId id : map.landmark_ids()) {
+    if (map[map[id].sightings.front().keyframe].part == part)
+      map.move(id, into_from_part * map[id].point_in_world);
+  }
+  for (const KeyframeId id : map.keyframe_ids()) {
+    if (map[id].part != part) continue;
+    map.move(id, into_from_part * map[id].world_from_camera);
+    map.set_part(id, into);
+  }
+}
+
+}  // namespace cairn

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <exception>
+#include <string>
+
+#include "cairn/slam/observe.h"
+
+namespace cairn {
+
+/// A frame on its way from the disk to the tracker.
+struct Arrival {
+  ObservedFrame observed;
+  std::string error;           ///< not empty: it could not be decoded
+  std::exception_ptr failure;  ///< the same, to be thrown again
+  double decode_seconds = 0, feature_seconds = 0;
+};
+
+/// Decodes and observes frames of a sequence, which must live as long; safe to call from several threads.
+class Frontend {
+ public:
+  Frontend(const Sequence& sequence, const SlamOptions& options);
+  [[nodiscard]] Arrival operator()(std::size_t index) const;
+
+ private:
+  FrameLoader loader_;
+  Observer observer_;
+};
+
+}  // namespace cairn

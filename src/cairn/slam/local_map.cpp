@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/local_map.h"
+
+#include <algorithm>
+
+namespace cairn {
+
+std::vector<SharedView> keyframes_showing(const Map& map, std::span<const LandmarkId> landmarks) {
+  std::vector<int> counts(map.keyframes().size(), 0);
+  for (const LandmarkId id : landmarks) {
+    if (!id.valid()) continue;
+    for (const Sighting& sighting : map[id].sightings) ++counts[static_cast<std::size_t>(sighting.keyframe.value)];
+  }
+  std::vector<SharedView> views;
+  for (std::size_t k = counts.size(); k-- > 0;)
+    if (counts[k] > 0) views.push_back({{static_cast<std::int32_t>(k)}, counts[k]});
+  std::stable_sort(views.begin(), views.end(),
+                   [](const SharedView& a, const SharedView& b) { return a.shared > b.shared; });
+  return views;
+}
+
+std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared) {
+  std::vector<SharedView> views = keyframes_showing(map, map[id].landmarks);
+  std::erase_if(views, [&](const SharedView& v) { return v.keyframe == id || v.shared < min_shared; });
+  return views;
+}
+
+std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes) {
+  std::vector<LandmarkId> landmarks;
+  for (const KeyframeId id : keyframes) {
+    for (const LandmarkId landmark : map[id].landmarks)
+      if (landmark.valid()) landmarks.push_back(landmark);
+  }
+  std::sort(landmarks.begin(), landmarks.end());
+  landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
+  return landmarks;
+}
+
+std::vector<KeyframeId> local_keyframes(const Map& map, std::span<const LandmarkId> landmarks,
+                                        std::size_t count, std::size_t neighbours) {
+  constexpr int kMinShared = 15;  // as many as make two keyframes neighbours (Mur-Artal et al. 2015)
+  std::vector<KeyframeId> local;
+  const std::vector<SharedView> views = keyframes_showing(map, landmarks);
+  for (std::size_t i = 0; i < std::min(count, views.size()); ++i) {
+    local.push_back(views[i].keyframe);
+    const auto around = covisible_keyframes(map, views[i].keyframe, kMinShared);
+    for (std::size_t n = 0; n < std::min(neighbours, around.size()); ++n) local.push_back(around[n].keyframe);
+  }
+  std::sort(local.begin(), local.end());
+  local.erase(std::unique(local.begin(), local.end()), local.end());
+  return local;
+}
+
+}  // namespace cairn

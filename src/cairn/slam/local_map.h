@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cairn/map/map.h"
+
+namespace cairn {
+
+/// A keyframe and how many of some landmarks it shows.
+struct SharedView {
+  KeyframeId keyframe;
+  int shared = 0;
+};
+
+/// Keyframes that show any of the landmarks (invalid and erased ones are passed over), most first, of equal
+/// ones the later first.
+[[nodiscard]] std::vector<SharedView> keyframes_showing(const Map& map, std::span<const LandmarkId> landmarks);
+
+/// Keyframes that share at least `min_shared` landmarks with this one, most first; itself not.
+[[nodiscard]] std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared);
+
+/// The landmarks that these keyframes show, each once, increasing.
+[[nodiscard]] std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes);
+
+/// The neighbourhood of a view that shows `landmarks`: the `count` keyframes that show most of them, and each
+/// of their `neighbours` nearest in shared landmarks. Increasing.
+[[nodiscard]] std::vector<KeyframeId> local_keyframes(const Map& map, std::span<const LandmarkId> landmarks,
+                                                      std::size_t count, std::size_t neighbours);
+
+}  // namespace cairn

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/mapper.h"
+
+#include <algorithm>
+
+#include "cairn/core/stopwatch.h"
+#include "cairn/slam/essential_graph.h"
+#include "cairn/slam/mapping.h"
+#include "cairn/slam/window.h"
+
+namespace cairn {
+namespace {
+
+int points_with_depth(const ObservedFrame& frame) {
+  return static_cast<int>(std::count_if(frame.observations.begin(), frame.observations.end(),
+                                        [](const Observation& o) { return o.has_disparity(); }));
+}
+
+}  // namespace
+
+/// An adjustment under way.
+struct Mapper::Adjustment {
+  Window window;
+  BundleReport report;
+  double seconds = 0;
+  int frames = 0;  // since its start
+  std::optional<Executor::Task> task;
+
+  void run() {
+    const Stopwatch watch;
+    BundleOptions options;
+    options.max_iterations = 5;
+    report = adjust_bundle(window.problem, options);
+    seconds = watch.seconds();
+  }
+};
+
+Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, StageTimes& times)
+    : options_(options), executor_(executor), map_(map), times_(times), closer_(options, executor, map) {}
+
+Mapper::~Mapper() = default;
+
+std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
+  if (points_with_depth(frame) < options_.min_good_match) return std::nullopt;
+  if (!map_.keyframes().empty() && ++good_lost_frames_ < options_.lost_frames) return std::nullopt;
+  good_lost_frames_ = 0;
+  (void)take_over();
+  const KeyframeId id = map_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
+  parent_from_new_.emplace_back();
+  (void)add_landmarks_by_depth(map_, id);
+  return id;
+}
+
+KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent) {
+  Stopwatch watch;
+  good_lost_frames_ = 0;
+  parent_from_new_.push_back(map_.world_from_camera(parent).inverse() * tracked.world_from_camera);
+  const KeyframeId id = add_keyframe(map_, frame, tracked, parent, map_.part_of(parent));
+  (void)add_landmarks_by_depth(map_, id);
+  (void)join_with_neighbours(map_, id, options_);
+  (void)erase_unconfirmed(map_, id, options_.mapping);
+  times_.mapping.push_back(watch.lap());
+  if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(id);
+  times_.loops.push_back(watch.lap());
+  (void)erase_redundant(map_, id, options_.mapping);
+  start_adjustment(id);
+  return id;
+}
+
+void Mapper::start_adjustment(KeyframeId keyframe) {
+  adjustment_ = std::make_unique<Adjustment>();
+  adjustment_->window = window_around(map_, keyframe, options_.mapping);
+  Adjustment* running = adjustment_.get();
+  adjustment_->task.emplace(executor_.start([running] { running->run(); }));
+}
+
+bool Mapper::take_over_if_due() {
+  if (!adjustment_ || ++adjustment_->frames <= options_.mapping.window_lag) return false;
+  return take_over();
+}
+
+bool Mapper::take_over() {
+  if (!adjustment_) return false;
+  adjustment_->task->wait();
+  cairn::take_over(adjustment_->window, adjustment_->report, map_);
+  times_.window.push_back(adjustment_->seconds);
+  adjustment_.reset();
+  return true;
+}
+
+void Mapper::adjust_whole(std::int32_t part) {
+  const Stopwatch watch;
+  for (int round = 0; round < 2; ++round) {  // the second without the outliers of the first
+    Window whole = whole_part(map_, part);
+    BundleOptions options;
+    const BundleReport report = adjust_bundle(whole.problem, options, executor_);
+    cairn::take_over(whole, report, map_);
+  }
+  times_.global.push_back(watch.seconds());
+}
+
+void Mapper::finish() {
+  (void)take_over();
+  if (options_.odometry) return;
+  for (std::int32_t part = 0; part < parts_; ++part) adjust_whole(part);
+}
+
+void Mapper::fill_graphs(PoseGraph& before, PoseGraph& after) const {
+  std::vector<Rigid3> by_odometry(map_.keyframes().size());
+  for (const Keyframe& keyframe : map_.keyframes()) {
+    const auto k = static_cast<std::size_t>(keyframe.id.value);
+    if (keyframe.parent.valid())
+      by_odometry[k] = by_odometry[static_cast<std::size_t>(keyframe.parent.value)] * parent_from_new_[k];
+    before.vertices.push_back({keyframe.id.value, by_odometry[k]});
+    after.vertices.push_back({keyframe.id.value, map_.world_from_camera(keyframe.id)});
+    if (keyframe.parent.valid())
+      before.edges.push_back({keyframe.parent.value, keyframe.id.value, parent_from_new_[k],
+                              edge_information(map_, keyframe.id), false});
+  }
+  before.edges.insert(before.edges.end(), closer_.edges().begin(), closer_.edges().end());
+  if (!before.vertices.empty()) before.fixed = {before.vertices.front().id};
+  after.edges = before.edges;
+  after.fixed = before.fixed;
+}
+
+}  // namespace cairn

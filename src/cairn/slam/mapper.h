@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cairn/core/executor.h"
+#include "cairn/map/pose_graph.h"
+#include "cairn/slam/loop_closer.h"
+#include "cairn/slam/stage_times.h"
+#include "cairn/slam/tracked_frame.h"
+
+namespace cairn {
+
+/// Lets the map grow by keyframes and keeps it right: landmarks, loops, and after each keyframe an adjustment
+/// of the window around it. The adjustment runs beside tracking on a copy; its result is taken over a fixed
+/// number of frames after its start, or before the next keyframe, so that the map does not depend on timing.
+class Mapper {
+ public:
+  Mapper(const SlamOptions& options, const Executor& executor, Map& map, StageTimes& times);
+  ~Mapper();
+
+  /// The first keyframe of a part, where the frame has enough depth and none fitted for lost_frames.
+  std::optional<KeyframeId> begin_part(const ObservedFrame& frame);
+  /// A keyframe of a tracked frame. No adjustment may be under way.
+  KeyframeId add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent);
+  /// To be called once for each frame: takes an adjustment over whose time has come. True: the map moved.
+  bool take_over_if_due();
+  /// Takes the adjustment over that is under way, if any. True: the map moved.
+  bool take_over();
+  /// After the last frame: adjusts the whole map.
+  void finish();
+
+  [[nodiscard]] const LoopReport& loops() const { return closer_.report(); }
+  /// The keyframes joined by odometry and loops: placed by odometry alone, and as they are now.
+  void fill_graphs(PoseGraph& before, PoseGraph& after) const;
+
+ private:
+  struct Adjustment;
+  void start_adjustment(KeyframeId keyframe);
+  void adjust_whole(std::int32_t part);
+
+  const SlamOptions& options_;
+  const Executor& executor_;
+  Map& map_;
+  StageTimes& times_;
+  LoopCloser closer_;
+  std::unique_ptr<Adjustment> adjustment_;
+  std::vector<Rigid3> parent_from_new_;  // of each keyframe, when it was made
+  std::int32_t parts_ = 0;
+  int good_lost_frames_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/mapping.h"
+
+#include <algorithm>
+
+#include "cairn/slam/local_map.h"
+
+namespace cairn {
+namespace {
+
+constexpr int kMinShared = 15;  // landmarks that make two keyframes neighbours (Mur-Artal et al. 2015)
+
+std::vector<KeyframeId> neighbours_of(const Map& map, KeyframeId keyframe, std::size_t count) {
+  std::vector<KeyframeId> ids;
+  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
+    if (ids.size() == count) break;
+    ids.push_back(view.keyframe);
+  }
+  return ids;
+}
+
+/// The landmark that has more sightings stays; of equal ones the older.
+void merge_two(Map& map, LandmarkId a, LandmarkId b) {
+  const std::size_t in_a = map[a].sightings.size(), in_b = map[b].sightings.size();
+  const bool keep_a = in_a != in_b ? in_a > in_b : a < b;
+  keep_a ? map.merge(b, a) : map.merge(a, b);
+}
+
+bool shows(const Landmark& landmark, KeyframeId keyframe) {
+  return std::any_of(landmark.sightings.begin(), landmark.sightings.end(),
+                     [&](const Sighting& s) { return s.keyframe == keyframe; });
+}
+
+/// Looks for landmarks in a keyframe that does not show them.
+int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyframe,
+              const SlamOptions& options) {
+  std::vector<LandmarkId> wanted;
+  for (const LandmarkId id : landmarks)
+    if (id.valid() && !map[id].erased() && !shows(map[id], keyframe)) wanted.push_back(id);
+  const FrameView view{map.rig(), map[keyframe].observed, map[keyframe].world_from_camera.inverse()};
+  const auto targets = landmark_targets(map, wanted, view, options.tracking.map_radius_px);
+  const MatchOptions matching{descriptor_limit(view.observed.features.descriptors), 0, true};
+  int joined = 0;
+  for (const FoundPoint& found : find_targets(targets, view, {}, matching)) {
+    const auto feature = static_cast<std::size_t>(found.feature);
+    const Eigen::Vector3d point = view.camera_from_world * found.point_in_world;
+    const Observation& seen = view.observed.observations[feature];
+    if (map[found.landmark].erased() || squared_error(view.rig, point, seen) > squared_error_limit(seen))
+      continue;
+    const LandmarkId other = map[keyframe].landmarks[feature];
+    if (other == found.landmark) continue;
+    other.valid() ? merge_two(map, found.landmark, other)
+                  : map.add_sighting(found.landmark, {keyframe, found.feature});
+    ++joined;
+  }
+  return joined;
+}
+
+/// Three other keyframes show it at the same or a finer scale.
+bool is_seen_as_well(const Map& map, const Landmark& landmark, KeyframeId keyframe, float sigma_px) {
+  constexpr float kNextLevel = 1.25F;
+  constexpr int kOthers = 3;
+  int others = 0;
+  for (const Sighting& sighting : landmark.sightings) {
+    if (sighting.keyframe == keyframe) continue;
+    const auto& keypoints = map[sighting.keyframe].observed.features.keypoints;
+    others += keypoints[static_cast<std::size_t>(sighting.feature)].sigma_px <= kNextLevel * sigma_px ? 1 : 0;
+  }
+  return others >= kOthers;
+}
+
+bool is_redundant(const Map& map, KeyframeId id, double share) {
+  const Keyframe& keyframe = map[id];
+  int shown = 0, seen_as_well = 0;
+  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
+    if (!keyframe.landmarks[i].valid()) continue;
+    ++shown;
+    const float sigma = keyframe.observed.features.keypoints[i].sigma_px;
+    seen_as_well += is_seen_as_well(map, map[keyframe.landmarks[i]], id, sigma) ? 1 : 0;
+  }
+  return seen_as_well > share * shown;
+}
+
+}  // namespace
+
+KeyframeId add_keyframe(Map& map, const ObservedFrame& observed, const TrackedFrame& tracked,
+                        KeyframeId parent, std::int32_t part) {
+  const KeyframeId id = map.add_keyframe(ObservedFrame(observed), tracked.world_from_camera, parent, part);
+  for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
+    const LandmarkId landmark = tracked.landmarks[i];
+    if (!landmark.valid() || map[landmark].erased() || shows(map[landmark], id)) continue;
+    map.add_sighting(landmark, {id, static_cast<std::int32_t>(i)});
+  }
+  return id;
+}
+
+int add_landmarks_by_depth(Map& map, KeyframeId id) {
+  int added = 0;
+  for (std::size_t i = 0; i < map[id].landmarks.size(); ++i) {
+    const Eigen::Vector3d& point = map[id].observed.points_in_camera[i];
+    if (map[id].landmarks[i].valid() || !point.allFinite()) continue;
+    map.add_landmark(map[id].world_from_camera * point, {id, static_cast<std::int32_t>(i)});
+    ++added;
+  }
+  return added;
+}
+
+int join_with_neighbours(Map& map, KeyframeId id, const SlamOptions& options) {
+  const auto neighbours = neighbours_of(map, id, static_cast<std::size_t>(options.tracking.local_keyframes));
+  int joined = 0;
+  for (const KeyframeId neighbour : neighbours)
+    joined += join_into(map, std::vector<LandmarkId>(map[id].landmarks), neighbour, options);
+  return joined + join_into(map, landmarks_of(map, neighbours), id, options);
+}
+
+int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options) {
+  const auto count = static_cast<std::size_t>(options.tracking.local_keyframes);
+  std::vector<KeyframeId> around_a = neighbours_of(map, a, count), around_b = neighbours_of(map, b, count);
+  around_a.push_back(a);
+  around_b.push_back(b);
+  int joined = 0;
+  for (const KeyframeId keyframe : around_b)
+    joined += join_into(map, landmarks_of(map, around_a), keyframe, options);
+  for (const KeyframeId keyframe : around_a)
+    joined += join_into(map, landmarks_of(map, around_b), keyframe, options);
+  return joined;
+}
+
+int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options) {
+  const KeyframeId made{newest.value - options.trial_keyframes};
+  if (!made.valid() || map[made].erased) return 0;
+  int erased = 0;
+  for (const LandmarkId id : std::vector<LandmarkId>(map[made].landmarks)) {
+    if (!id.valid() || map[id].sightings.size() > 1) continue;
+    map.erase(id);
+    ++erased;
+  }
+  return erased;
+}
+
+int erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options) {
+  int erased = 0;
+  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
+    const bool is_first = !map[view.keyframe].parent.valid();
+    if (is_first || !is_redundant(map, view.keyframe, options.redundant_share)) continue;
+    map.erase(view.keyframe);
+    ++erased;
+  }
+  return erased;
+}
+
+}  // namespace cairn

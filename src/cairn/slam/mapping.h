@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/slam/tracked_frame.h"
+
+namespace cairn {
+
+// What a new keyframe brings to the map, one step each; all deterministic.
+
+/// Adds a keyframe, which shows the landmarks that its frame was tracked by.
+KeyframeId add_keyframe(Map& map, const ObservedFrame& observed, const TrackedFrame& tracked,
+                        KeyframeId parent, std::int32_t part);
+
+/// Each feature with depth that shows no landmark becomes one. Returns how many.
+int add_landmarks_by_depth(Map& map, KeyframeId keyframe);
+
+/// Looks for the landmarks of the keyframe in its neighbours, and for theirs in it: what is found becomes a
+/// sighting, and two landmarks at one feature become one. Returns how many were joined or found.
+int join_with_neighbours(Map& map, KeyframeId keyframe, const SlamOptions& options);
+
+/// The same between two keyframes that see one place, each with its neighbours.
+int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options);
+
+/// Erases landmarks that were made trial_keyframes before `newest` and are seen by one keyframe only.
+int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options);
+
+/// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by three
+/// other keyframes at the same or a finer scale. Returns how many.
+int erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options);
+
+}  // namespace cairn

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/slam.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "cairn/core/error.h"
+#include "cairn/core/stopwatch.h"
+#include "cairn/slam/final_poses.h"
+#include "cairn/slam/frontend.h"
+#include "cairn/slam/mapper.h"
+
+namespace cairn {
+namespace {
+
+void require_depth(const Sequence& sequence) {
+  if (sequence.frames.empty()) return;
+  const FrameFiles& first = sequence.frames.front();
+  if (!first.depth.empty() || !first.right.empty()) return;
+  throw InputError({sequence.folder.string(), 0, "an RGB-D or stereo sequence",
+                    fmt::format("a {} sequence without depth or right images", sequence.format),
+                    "Without either there is no scale; record with an RGB-D or a stereo camera."});
+}
+
+/// One run under way.
+class Run {
+ public:
+  Run(const SlamOptions& options, const Executor& executor, SlamResult& result)
+      : options_(options),
+        executor_(executor),
+        result_(result),
+        tracker_(options, executor, result.map),
+        mapper_(options, executor, result.map, result.times) {}
+
+  void take(ObservedFrame&& frame) {
+    Stopwatch watch;
+    if (mapper_.take_over_if_due()) tracker_.follow_map();
+    FrameTrack track = tracker_.track(std::move(frame));
+    result_.times.tracking.push_back(watch.lap());
+    if (tracker_.lost()) {
+      begin_part(track);
+    } else {
+      memory_.remember(result_.frames.size(), tracker_.last_observed(), tracker_.last());
+      if (track.decision == KeyframeDecision::keyframe) add_keyframe(track);
+    }
+    result_.frames.push_back(track);
+  }
+
+  void finish() {
+    mapper_.finish();
+    if (!options_.odometry) memory_.refine(result_.map, options_, executor_, result_.frames);
+    result_.loops = mapper_.loops();
+    mapper_.fill_graphs(result_.graph_before, result_.graph_after);
+  }
+
+ private:
+  void begin_part(FrameTrack& track) {
+    const auto keyframe = mapper_.begin_part(tracker_.last_observed());
+    if (!keyframe) return;
+    tracker_.refer_to(*keyframe);
+    track.decision = KeyframeDecision::keyframe;
+    track.reference = keyframe;
+    track.reference_from_frame = {};
+  }
+
+  void add_keyframe(FrameTrack& track) {
+    if (mapper_.take_over()) tracker_.follow_map();
+    const KeyframeId keyframe = mapper_.add(tracker_.last_observed(), tracker_.last(), tracker_.reference());
+    tracker_.refer_to(keyframe);
+    track.reference = keyframe;
+    track.reference_from_frame = {};
+  }
+
+  const SlamOptions& options_;
+  const Executor& executor_;
+  SlamResult& result_;
+  Tracker tracker_;
+  Mapper mapper_;
+  FrameMemory memory_;
+};
+
+}  // namespace
+
+std::int32_t SlamResult::main_part() const {
+  std::map<std::int32_t, std::size_t> counts;
+  for (const FrameTrack& track : frames)
+    if (track.tracked()) ++counts[map.part_of(*track.reference)];
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? 0 : most->first;
+}
+
+Trajectory SlamResult::trajectory() const {
+  Trajectory trajectory;
+  const std::int32_t part = main_part();
+  for (const FrameTrack& track : frames) {
+    if (!track.tracked() || map.part_of(*track.reference) != part) continue;
+    trajectory.push_back(
+        {track.stamp_ns, map.world_from_camera(*track.reference) * track.reference_from_frame});
+  }
+  return trajectory;
+}
+
+Trajectory SlamResult::keyframe_trajectory() const {
+  Trajectory trajectory;
+  const std::int32_t part = main_part();
+  for (const Keyframe& keyframe : map.keyframes()) {
+    if (!keyframe.erased && keyframe.part == part)
+      trajectory.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
+  }
+  return trajectory;
+}
+
+SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const Executor& executor,
+                    Progress& progress) {
+  options.validate();
+  require_depth(sequence);
+  SlamResult result;
+  result.map = Map(rig_of(sequence.calibration, options.depth_noise), options.features.descriptor);
+  Run run(options, executor, result);
+  const Frontend frontend(sequence, options);
+
+  const auto take = [&](std::size_t index, Arrival&& arrival) {
+    result.times.decode.push_back(arrival.decode_seconds);
+    result.times.features.push_back(arrival.feature_seconds);
+    if (arrival.error.empty()) {
+      run.take(std::move(arrival.observed));
+    } else {
+      if (result.frames.empty())
+        std::rethrow_exception(arrival.failure);  // from the start: not one frame, all
+      progress.warn(arrival.error + " The frame is skipped.");
+      result.unreadable.push_back(arrival.error);
+    }
+    progress.update(static_cast<std::int64_t>(index) + 1);
+    result.stopped = progress.stop_requested() && index + 1 < sequence.frames.size();
+    return !result.stopped;
+  };
+  progress.start("tracking", static_cast<std::int64_t>(sequence.frames.size()), "frames");
+  executor.ordered_pipeline<Arrival>(sequence.frames.size(), std::cref(frontend), take);
+  progress.finish();
+  run.finish();
+  return result;
+}
+
+}  // namespace cairn

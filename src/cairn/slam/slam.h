@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
+#include "cairn/map/map.h"
+#include "cairn/map/pose_graph.h"
+#include "cairn/optimize/pose_graph_optimizer.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/slam/loop_closer.h"
+#include "cairn/slam/options.h"
+#include "cairn/slam/stage_times.h"
+#include "cairn/slam/tracker.h"
+
+namespace cairn {
+
+struct SlamResult {
+  std::vector<FrameTrack> frames;       ///< one for each frame that was decoded, in order
+  std::vector<std::string> unreadable;  ///< messages of frames that were skipped
+  Map map;                              ///< after the last adjustment
+  PoseGraph graph_before, graph_after;  ///< the keyframes by their neighbours and loops; before and after them
+  LoopReport loops;
+  StageTimes times;
+  bool stopped = false;  ///< the user stopped before the last frame
+
+  /// The part of the map with the most frames: the one that trajectories and outputs are of.
+  [[nodiscard]] std::int32_t main_part() const;
+  /// world_from_camera of every frame that was tracked in the main part, carried by its keyframe's pose.
+  [[nodiscard]] Trajectory trajectory() const;
+  [[nodiscard]] Trajectory keyframe_trajectory() const;
+};
+
+/// SLAM with an RGB-D or stereo sequence: observe, track, map, close loops, adjust. A frame that cannot be
+/// decoded is reported and skipped. The same bits at any number of threads. InputError for a sequence without
+/// depth or right images and for options out of range.
+[[nodiscard]] SlamResult run_slam(const Sequence& sequence, const SlamOptions& options,
+                                  const Executor& executor, Progress& progress);
+
+}  // namespace cairn

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/tracked_frame.h"
+
+#include <algorithm>
+
+#include "cairn/optimize/pose_only.h"
+#include "cairn/slam/local_map.h"
+
+namespace cairn {
+namespace {
+
+/// The landmarks that a frame shows already, as found points.
+std::vector<FoundPoint> points_seen(const Map& map, const TrackedFrame& tracked) {
+  std::vector<FoundPoint> seen;
+  for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
+    const LandmarkId id = tracked.landmarks[i];
+    if (id.valid() && !map[id].erased())
+      seen.push_back({static_cast<std::int32_t>(i), id, map[id].point_in_world});
+  }
+  return seen;
+}
+
+std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tracked,
+                                         const TrackingOptions& options) {
+  const auto keyframes = local_keyframes(map, tracked.landmarks, static_cast<std::size_t>(options.local_keyframes),
+                                         static_cast<std::size_t>(options.local_neighbours));
+  std::vector<LandmarkId> seen = tracked.landmarks;
+  std::sort(seen.begin(), seen.end());
+  std::vector<LandmarkId> around = landmarks_of(map, keyframes);
+  std::erase_if(around, [&](LandmarkId id) { return std::binary_search(seen.begin(), seen.end(), id); });
+  return around;
+}
+
+}  // namespace
+
+bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers, TrackedFrame& tracked) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Observation> seen;
+  for (const FoundPoint& one : found) {
+    points.push_back(one.point_in_world);
+    seen.push_back(view.observed.observations[static_cast<std::size_t>(one.feature)]);
+  }
+  PoseOnlyOptions options;
+  options.begin_with_all = true;
+  const PoseOnlyResult pose = refine_pose(view.rig, points, seen, view.camera_from_world, options);
+  const int inliers = static_cast<int>(pose.inliers.size());
+  if (!pose.solved || inliers < min_inliers) return false;
+  tracked.world_from_camera = pose.camera_from_world.inverse();
+  tracked.landmarks.assign(view.observed.observations.size(), LandmarkId{});
+  for (const std::int32_t i : pose.inliers) {
+    const FoundPoint& one = found[static_cast<std::size_t>(i)];
+    tracked.landmarks[static_cast<std::size_t>(one.feature)] = one.landmark;
+  }
+  tracked.matches = static_cast<int>(found.size());
+  tracked.inliers = inliers;
+  return true;
+}
+
+TrackedFrame placed_by(const Map& map, KeyframeId reference, const Motion& motion, std::size_t features) {
+  TrackedFrame tracked;
+  const Keyframe& keyframe = map[reference];
+  tracked.world_from_camera = keyframe.world_from_camera * motion.current_from_reference.inverse();
+  tracked.landmarks.resize(features);
+  for (const Match& pair : motion.pairs)
+    tracked.landmarks[static_cast<std::size_t>(pair.query)] =
+        keyframe.landmarks[static_cast<std::size_t>(pair.train)];
+  tracked.matches = motion.matches;
+  tracked.inliers = motion.inliers;
+  return tracked;
+}
+
+bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
+                   TrackedFrame& tracked) {
+  const FrameView view{map.rig(), observed, tracked.world_from_camera.inverse()};
+  const auto around = landmarks_around(map, tracked, options.tracking);
+  const auto targets = landmark_targets(map, around, view, options.tracking.map_radius_px);
+  const MatchOptions matching{descriptor_limit(observed.features.descriptors), 0, true};
+  auto found = points_seen(map, tracked);
+  const auto more = find_targets(targets, view, tracked.landmarks, matching);
+  found.insert(found.end(), more.begin(), more.end());
+  return solve_pose(view, found, options.min_inliers, tracked);
+}
+
+}  // namespace cairn

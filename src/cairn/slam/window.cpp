@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/window.h"
+
+#include <algorithm>
+
+#include "cairn/slam/local_map.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::int32_t kAbsent = -1;
+
+/// Builds the problem of some landmarks, with the keyframes that are let in.
+class WindowBuilder {
+ public:
+  explicit WindowBuilder(const Map& map) : map_(map), camera_of_(map.keyframes().size(), kAbsent) {
+    window_.problem.rig = map.rig();
+  }
+
+  void add_camera(KeyframeId id, bool fixed) {
+    camera_of_[static_cast<std::size_t>(id.value)] = static_cast<std::int32_t>(window_.cameras.size());
+    window_.cameras.push_back(id);
+    window_.problem.camera_from_world.push_back(map_[id].world_from_camera.inverse());
+    window_.problem.camera_fixed.push_back(fixed ? 1 : 0);
+  }
+
+  void add_points(const std::vector<LandmarkId>& landmarks) {
+    for (const LandmarkId id : landmarks) {
+      const auto point = static_cast<std::int32_t>(window_.points.size());
+      window_.points.push_back(id);
+      window_.problem.points_in_world.push_back(map_[id].point_in_world);
+      for (const Sighting& sighting : map_[id].sightings) {
+        const std::int32_t camera = camera_of_[static_cast<std::size_t>(sighting.keyframe.value)];
+        if (camera == kAbsent) continue;
+        const auto& seen = map_[sighting.keyframe].observed.observations;
+        window_.problem.observations.push_back(
+            {camera, point, seen[static_cast<std::size_t>(sighting.feature)]});
+      }
+    }
+  }
+
+  [[nodiscard]] Window take() { return std::move(window_); }
+
+ private:
+  const Map& map_;
+  std::vector<std::int32_t> camera_of_;
+  Window window_;
+};
+
+}  // namespace
+
+Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options) {
+  constexpr int kMinShared = 15;
+  std::vector<KeyframeId> free = {keyframe};
+  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
+    if (free.size() == static_cast<std::size_t>(options.window_keyframes)) break;
+    free.push_back(view.keyframe);
+  }
+  std::sort(free.begin(), free.end());
+  const auto landmarks = landmarks_of(map, free);
+  std::vector<SharedView> around = keyframes_showing(map, landmarks);
+  std::erase_if(around, [&](const SharedView& v) { return std::binary_search(free.begin(), free.end(), v.keyframe); });
+  around.resize(std::min(around.size(), static_cast<std::size_t>(options.window_fixed)));
+  WindowBuilder builder(map);
+  for (const KeyframeId id : free) builder.add_camera(id, around.empty() && id == free.front());
+  for (const SharedView& view : around) builder.add_camera(view.keyframe, true);
+  builder.add_points(landmarks);
+  return builder.take();
+}
+
+Window whole_part(const Map& map, std::int32_t part) {
+  WindowBuilder builder(map);
+  bool first = true;
+  for (const KeyframeId id : map.keyframe_ids()) {
+    if (map[id].part != part) continue;
+    builder.add_camera(id, first);
+    first = false;
+  }
+  std::vector<LandmarkId> landmarks;
+  for (const LandmarkId id : map.landmark_ids()) {
+    const auto& sightings = map[id].sightings;
+    if (sightings.size() > 1 && map[sightings.front().keyframe].part == part) landmarks.push_back(id);
+  }
+  builder.add_points(landmarks);
+  return builder.take();
+}
+
+void take_over(const Window& window, const BundleReport& report, Map& map) {
+  for (std::size_t c = 0; c < window.cameras.size(); ++c) {
+    if (window.problem.camera_fixed[c] == 0)
+      map.move(window.cameras[c], window.problem.camera_from_world[c].inverse());
+  }
+  for (std::size_t p = 0; p < window.points.size(); ++p)
+    if (!map[window.points[p]].erased()) map.move(window.points[p], window.problem.points_in_world[p]);
+  for (std::size_t i = 0; i < report.inlier.size(); ++i) {
+    if (report.inlier[i] != 0) continue;
+    const BundleObservation& seen = window.problem.observations[i];
+    map.remove_sighting(window.points[static_cast<std::size_t>(seen.point)],
+                        window.cameras[static_cast<std::size_t>(seen.camera)]);
+  }
+}
+
+}  // namespace cairn
