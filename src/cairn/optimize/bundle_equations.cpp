@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/optimize/bundle_equations.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kPointGrain = 64;  // points of a chunk: tens of microseconds
+
+double squared_error(const Eigen::Vector3d& error, const BundleTerm& term) {
+  return error.dot(term.inverse_variances.cwiseProduct(error));
+}
+
+/// Adds B^T H B and B^T g of a link, the former below the diagonal only.
+void add_link(const Eigen::Vector3d& point_in_camera, const TermExpansion& expansion, Matrix6d& hessian,
+              Vector6d& gradient) {
+  const Eigen::Matrix3d cross = skew(point_in_camera);
+  const Eigen::Matrix3d turned = expansion.hessian * cross.transpose();
+  hessian.topLeftCorner<3, 3>().noalias() += cross * turned;
+  hessian.bottomLeftCorner<3, 3>() += turned;
+  hessian.bottomRightCorner<3, 3>() += expansion.hessian;
+  gradient.head<3>() += point_in_camera.cross(expansion.gradient);
+  gradient.tail<3>() += expansion.gradient;
+}
+
+}  // namespace
+
+TermExpansion expand_term(const Rig& rig, const Eigen::Vector3d& point_in_camera, const BundleTerm& term,
+                          const BundleOptions& options) {
+  const Eigen::Vector3d error = rig.project(point_in_camera) - term.seen;
+  const double weight = kernel_weight(options.kernel, options.kernel_scale, squared_error(error, term));
+  const Eigen::Matrix3d jacobian = rig.projection_jacobian(point_in_camera);
+  const Eigen::Matrix3d weighted = (weight * term.inverse_variances).asDiagonal() * jacobian;
+  return {jacobian.transpose() * weighted, weighted.transpose() * error};
+}
+
+bool is_determined(const Eigen::Matrix3d& information) {
+  constexpr double kSmallestShare = 1e-9;
+  const double mean = information.trace() / 3.0;
+  return information.determinant() > kSmallestShare * mean * mean * mean;
+}
+
+BundleEquations::BundleEquations(const Rig& rig, const BundleStructure& structure,
+                                 const BundleOptions& options, const Executor& executor)
+    : rig_(rig),
+      structure_(structure),
+      options_(options),
+      executor_(executor),
+      active_(structure.terms.size(), 1),
+      links_(structure.link_free.size()),
+      link_blocks_(structure.link_free.size()),
+      factors_(structure.points()) {
+  find_pattern();
+  solver_ = make_block_cholesky(reduced_, choose_method(reduced_));
+}
+
+/// Column c of the reduced matrix has a block in row r >= c where a point links both cameras.
+void BundleEquations::find_pattern() {
+  const std::size_t count = structure_.free_cameras.size();
+  right_ = camera_step_ = Eigen::VectorXd::Zero(6 * static_cast<Eigen::Index>(count));
+  block_of_.assign(count * count, -1);
+  reduced_.begin.push_back(0);
+  for (std::size_t column = 0; column < count; ++column) {
+    std::int32_t* block_of_row = &block_of_[column * count];
+    block_of_row[column] = 0;
+    for (const std::size_t link : structure_.links_of_free.of(column)) {
+      const auto point = static_cast<std::size_t>(structure_.link_point[link]);
+      for (std::size_t other = link; other < structure_.link_begin[point + 1]; ++other)
+        block_of_row[structure_.link_free[other]] = 0;
+    }
+    for (std::size_t row = column; row < count; ++row) {
+      if (block_of_row[row] < 0) continue;
+      block_of_row[row] = static_cast<std::int32_t>(reduced_.rows.size());
+      reduced_.rows.push_back(static_cast<std::int32_t>(row));
+    }
+    reduced_.begin.push_back(reduced_.rows.size());
+  }
+  reduced_.blocks.resize(reduced_.rows.size());
+}
+
+void BundleEquations::build(const BundleState& state, double lambda) {
+  executor_.for_each_chunk(structure_.points(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t point = begin; point < end; ++point) build_point(point, state, lambda);
+  });
+  executor_.for_each(structure_.free_cameras.size(), [&](std::size_t free) { build_column(free, lambda); });
+}
+
+void BundleEquations::build_point(std::size_t point, const BundleState& state, double lambda) {
+  const PointSums sums = expand_terms(point, state);
+  if (!is_determined(sums.information)) {
+    std::fill(active_.begin() + static_cast<std::ptrdiff_t>(structure_.term_begin[point]),
+              active_.begin() + static_cast<std::ptrdiff_t>(structure_.term_begin[point + 1]), char{0});
+    clear_links(point);
+    factors_[point] = {};
+    return;
+  }
+  factors_[point] = factorise(sums, lambda);
+  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
+    whiten(factors_[point], link_blocks_[link]);
+}
+
+BundleEquations::PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& state) {
+  clear_links(point);
+  PointSums sums;
+  const std::size_t begin = structure_.term_begin[point];
+  for (std::size_t t = begin; t < structure_.term_begin[point + 1]; ++t) {
+    const BundleTerm& term = structure_.terms[t];
+    const MatrixPose& pose = state.matrix_poses[static_cast<std::size_t>(term.camera)];
+    const Eigen::Vector3d in_camera = pose * state.points[point];
+    if (!is_in_front(in_camera)) active_[t] = 0;
+    if (active_[t] == 0) continue;
+    const TermExpansion expansion = expand_term(rig_, in_camera, term, options_);
+    const Eigen::Matrix3d turned = expansion.hessian * pose.rotation;
+    sums.information.noalias() += pose.rotation.transpose() * turned;
+    sums.gradient.noalias() += pose.rotation.transpose() * expansion.gradient;
+    if (t - begin >= structure_.links(point)) continue;
+    const std::size_t link = structure_.link_begin[point] + t - begin;
+    links_[link] = {in_camera, expansion};
+    link_blocks_[link] << skew(in_camera) * turned, turned;
+  }
+  return sums;
+}
+
+void BundleEquations::clear_links(std::size_t point) {
+  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link) {
+    links_[link] = {};
+    link_blocks_[link].setZero();
+  }
+}
+
+BundleEquations::PointFactor BundleEquations::factorise(const PointSums& sums, double lambda) {
+  const Eigen::Matrix3d& v = sums.information;
+  const Eigen::Vector3d diagonal = (1.0 + lambda) * v.diagonal();
+  PointFactor factor;
+  const double i0 = 1.0 / std::sqrt(diagonal[0]);
+  factor.l10 = v(1, 0) * i0;
+  factor.l20 = v(2, 0) * i0;
+  const double i1 = 1.0 / std::sqrt(diagonal[1] - factor.l10 * factor.l10);
+  factor.l21 = (v(2, 1) - factor.l20 * factor.l10) * i1;
+  const double i2 = 1.0 / std::sqrt(diagonal[2] - factor.l20 * factor.l20 - factor.l21 * factor.l21);
+  factor.inverse_diagonal = {i0, i1, i2};
+  factor.h[0] = sums.gradient[0] * i0;
+  factor.h[1] = (sums.gradient[1] - factor.l10 * factor.h[0]) * i1;
+  factor.h[2] = (sums.gradient[2] - factor.l20 * factor.h[0] - factor.l21 * factor.h[1]) * i2;
+  return factor;
+}
+
+/// Z to Y = Z L^-T: its rows are L^-1 times those of Z.
+void BundleEquations::whiten(const PointFactor& factor, LinkBlock& block) {
+  block.col(0) *= factor.inverse_diagonal[0];
+  block.col(1) = (block.col(1) - factor.l10 * block.col(0)) * factor.inverse_diagonal[1];
+  block.col(2) =
+      (block.col(2) - factor.l20 * block.col(0) - factor.l21 * block.col(1)) * factor.inverse_diagonal[2];
+}
+
+void BundleEquations::build_column(std::size_t free, double lambda) {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  const std::int32_t* block_of_row = &block_of_[free * structure_.free_cameras.size()];
+  std::fill(reduced_.blocks.begin() + static_cast<std::ptrdiff_t>(reduced_.begin[free]),
+            reduced_.blocks.begin() + static_cast<std::ptrdiff_t>(reduced_.begin[free + 1]),
+            Matrix6d::Zero());
+  for (const std::size_t link : structure_.links_of_free.of(free)) {
+    add_link(links_[link].point_in_camera, links_[link].expansion, hessian, gradient);
+    const auto point = static_cast<std::size_t>(structure_.link_point[link]);
+    const LinkBlock& own = link_blocks_[link];
+    gradient.noalias() -= own * factors_[point].h;
+    for (std::size_t other = link; other < structure_.link_begin[point + 1]; ++other)
+      reduced_.blocks[static_cast<std::size_t>(block_of_row[structure_.link_free[other]])].noalias() -=
+          link_blocks_[other].lazyProduct(own.transpose());
+  }
+  constexpr double kLeastDiagonal = 1e-6;  // so that a camera without observations stays
+  hessian.diagonal() += lambda * hessian.diagonal().cwiseMax(kLeastDiagonal);
+  reduced_.blocks[reduced_.begin[free]] += hessian;
+  right_.segment<6>(6 * static_cast<Eigen::Index>(free)) = -gradient;
+}
+
+bool BundleEquations::solve() {
+  return structure_.free_cameras.empty() || solver_->solve(reduced_, right_, camera_step_);
+}
+
+Eigen::Vector3d BundleEquations::point_step(std::size_t point) const {
+  const PointFactor& factor = factors_[point];
+  Eigen::Vector3d y = factor.h;
+  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
+    y.noalias() += link_blocks_[link].transpose() *
+                   camera_step_.segment<6>(6 * static_cast<Eigen::Index>(structure_.link_free[link]));
+  Eigen::Vector3d step;
+  step[2] = -y[2] * factor.inverse_diagonal[2];
+  step[1] = (-y[1] - factor.l21 * step[2]) * factor.inverse_diagonal[1];
+  step[0] = (-y[0] - factor.l10 * step[1] - factor.l20 * step[2]) * factor.inverse_diagonal[0];
+  return step;
+}
+
+void BundleEquations::move(const BundleState& from, BundleState& to) const {
+  move_cameras(from, to);
+  executor_.for_each_chunk(structure_.points(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t point = begin; point < end; ++point) move_point(point, from, to);
+  });
+  to.sum_costs();
+}
+
+void BundleEquations::move_cameras(const BundleState& from, BundleState& to) const {
+  for (std::size_t free = 0; free < structure_.free_cameras.size(); ++free) {
+    const auto camera = static_cast<std::size_t>(structure_.free_cameras[free]);
+    const Vector6d step = camera_step_.segment<6>(6 * static_cast<Eigen::Index>(free));
+    to.set_camera(camera, perturb_left(step, from.camera_from_world[camera]));
+  }
+}
+
+void BundleEquations::move_point(std::size_t point, const BundleState& from, BundleState& to) const {
+  to.points[point] = from.points[point] + point_step(point);
+  if (price_point(point, from.term_costs, to)) return;
+  to.points[point] = from.points[point];
+  price_point(point, from.term_costs, to);
+}
+
+void BundleEquations::price(BundleState& state) const {
+  for (std::size_t point = 0; point < structure_.points(); ++point)
+    price_point(point, state.term_costs, state);
+  state.sum_costs();
+}
+
+/// False where a term is behind its camera.
+bool BundleEquations::price_point(std::size_t point, const std::vector<double>& costs_before,
+                                  BundleState& state) const {
+  bool in_front = true;
+  for (std::size_t t = structure_.term_begin[point]; t < structure_.term_begin[point + 1]; ++t) {
+    const BundleTerm& term = structure_.terms[t];
+    const Eigen::Vector3d in_camera =
+        state.matrix_poses[static_cast<std::size_t>(term.camera)] * state.points[point];
+    state.term_costs[t] = costs_before[t];
+    if (active_[t] == 0) continue;
+    if (is_in_front(in_camera))
+      state.term_costs[t] = kernel_cost(options_.kernel, options_.kernel_scale,
+                                        squared_error(rig_.project(in_camera) - term.seen, term));
+    else
+      in_front = false;
+  }
+  return in_front;
+}
+
+BundleState::BundleState(const BundleProblem& problem)
+    : camera_from_world(problem.camera_from_world),
+      matrix_poses(camera_from_world.size()),
+      points(problem.points_in_world),
+      term_costs(problem.observations.size(), 0.0) {
+  for (std::size_t i = 0; i < camera_from_world.size(); ++i) set_camera(i, camera_from_world[i]);
+}
+
+void BundleState::set_camera(std::size_t camera, const Rigid3& pose) {
+  camera_from_world[camera] = pose;
+  matrix_poses[camera] = {pose.matrix3(), pose.translation};
+}
+
+void BundleState::sum_costs() {
+  cost = 0.5 * std::accumulate(term_costs.begin(), term_costs.end(), 0.0);
+}
+
+}  // namespace cairn
