@@ -80,8 +80,8 @@ std::vector<char> find_inliers(const BundleProblem& problem, const BundleState& 
   return inlier;
 }
 
-Eigen::Matrix3d covariance_of(const Eigen::Matrix3d& information) {
-  if (is_determined(information)) return information.inverse();
+Eigen::Matrix3d covariance_of(const PointSums& sums) {
+  if (sums.determine_point()) return sums.information.inverse();
   return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
 }
 
@@ -130,18 +130,16 @@ std::vector<Eigen::Matrix3d> point_covariances(const BundleProblem& problem,
   std::vector<std::int32_t> point_of;
   for (const auto& observation : problem.observations) point_of.push_back(observation.point);
   const Groups by_point = group_items(point_of, problem.points_in_world.size());
-  const BundleOptions no_kernel{.kernel = RobustKernel::none};
   return executor.map<Eigen::Matrix3d>(problem.points_in_world.size(), [&](std::size_t point) {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    PointSums sums;
     for (const std::size_t i : by_point.of(point)) {
       const BundleObservation& observation = problem.observations[i];
       const MatrixPose& pose = state.matrix_poses[static_cast<std::size_t>(observation.camera)];
       const Eigen::Vector3d in_camera = pose * state.points[point];
       if (use_observation[i] == 0 || !is_in_front(in_camera)) continue;
-      const TermExpansion expansion = expand_term(problem.rig, in_camera, make_term(observation), no_kernel);
-      information += pose.rotation.transpose() * expansion.hessian * pose.rotation;
+      sums.add({problem.rig, in_camera, make_term(observation), RobustKernel::none, 1.0}, pose.rotation);
     }
-    return covariance_of(information);
+    return covariance_of(sums);
   });
 }
 

@@ -11,34 +11,16 @@ namespace {
 
 constexpr std::size_t kPointGrain = 64;  // points of a chunk: tens of microseconds
 
-double squared_error(const Eigen::Vector3d& error, const BundleTerm& term) {
-  return error.dot(term.inverse_variances.cwiseProduct(error));
-}
-
-/// Adds B^T H B and B^T g of a link, the former below the diagonal only.
-void add_link(const Eigen::Vector3d& point_in_camera, const TermExpansion& expansion, Matrix6d& hessian,
-              Vector6d& gradient) {
-  const Eigen::Matrix3d cross = skew(point_in_camera);
-  const Eigen::Matrix3d turned = expansion.hessian * cross.transpose();
-  hessian.topLeftCorner<3, 3>().noalias() += cross * turned;
-  hessian.bottomLeftCorner<3, 3>() += turned;
-  hessian.bottomRightCorner<3, 3>() += expansion.hessian;
-  gradient.head<3>() += point_in_camera.cross(expansion.gradient);
-  gradient.tail<3>() += expansion.gradient;
+/// Subtracts a b^T. One column after the other, so that `a` stays in registers.
+void subtract_product(const Eigen::Matrix<double, 6, 3>& a, const Eigen::Matrix<double, 6, 3>& b,
+                      Matrix6d& block) {
+  for (Eigen::Index c = 0; c < 6; ++c)
+    block.col(c) -= a.col(0) * b(c, 0) + a.col(1) * b(c, 1) + a.col(2) * b(c, 2);
 }
 
 }  // namespace
 
-TermExpansion expand_term(const Rig& rig, const Eigen::Vector3d& point_in_camera, const BundleTerm& term,
-                          const BundleOptions& options) {
-  const Eigen::Vector3d error = rig.project(point_in_camera) - term.seen;
-  const double weight = kernel_weight(options.kernel, options.kernel_scale, squared_error(error, term));
-  const Eigen::Matrix3d jacobian = rig.projection_jacobian(point_in_camera);
-  const Eigen::Matrix3d weighted = (weight * term.inverse_variances).asDiagonal() * jacobian;
-  return {jacobian.transpose() * weighted, weighted.transpose() * error};
-}
-
-bool is_determined(const Eigen::Matrix3d& information) {
+bool PointSums::determine_point() const {
   constexpr double kSmallestShare = 1e-9;
   const double mean = information.trace() / 3.0;
   return information.determinant() > kSmallestShare * mean * mean * mean;
@@ -91,11 +73,8 @@ void BundleEquations::build(const BundleState& state, double lambda) {
 
 void BundleEquations::build_point(std::size_t point, const BundleState& state, double lambda) {
   const PointSums sums = expand_terms(point, state);
-  if (!is_determined(sums.information)) {
-    std::fill(active_.begin() + static_cast<std::ptrdiff_t>(structure_.term_begin[point]),
-              active_.begin() + static_cast<std::ptrdiff_t>(structure_.term_begin[point + 1]), char{0});
-    clear_links(point);
-    factors_[point] = {};
+  if (!sums.determine_point()) {
+    drop_terms(point);
     return;
   }
   factors_[point] = factorise(sums, lambda);
@@ -103,33 +82,51 @@ void BundleEquations::build_point(std::size_t point, const BundleState& state, d
     whiten(factors_[point], link_blocks_[link]);
 }
 
-BundleEquations::PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& state) {
-  clear_links(point);
+PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& state) {
   PointSums sums;
   const std::size_t begin = structure_.term_begin[point];
   for (std::size_t t = begin; t < structure_.term_begin[point + 1]; ++t) {
+    const bool is_link = t - begin < structure_.links(point);
+    const std::size_t link = structure_.link_begin[point] + t - begin;
     const BundleTerm& term = structure_.terms[t];
     const MatrixPose& pose = state.matrix_poses[static_cast<std::size_t>(term.camera)];
     const Eigen::Vector3d in_camera = pose * state.points[point];
     if (!is_in_front(in_camera)) active_[t] = 0;
-    if (active_[t] == 0) continue;
-    const TermExpansion expansion = expand_term(rig_, in_camera, term, options_);
-    const Eigen::Matrix3d turned = expansion.hessian * pose.rotation;
-    sums.information.noalias() += pose.rotation.transpose() * turned;
-    sums.gradient.noalias() += pose.rotation.transpose() * expansion.gradient;
-    if (t - begin >= structure_.links(point)) continue;
-    const std::size_t link = structure_.link_begin[point] + t - begin;
-    links_[link] = {in_camera, expansion};
+    if (active_[t] == 0) {
+      if (is_link) clear_link(link);
+      continue;
+    }
+    const TermExpansion expansion(rig_, in_camera, term, options_.kernel, options_.kernel_scale);
+    const Eigen::Matrix3d turned = sums.add(expansion, pose.rotation);
+    if (!is_link) continue;
+    links_[link] = {in_camera, expansion.gradient(), expansion.hessian()};
     link_blocks_[link] << skew(in_camera) * turned, turned;
   }
   return sums;
 }
 
-void BundleEquations::clear_links(std::size_t point) {
-  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link) {
-    links_[link] = {};
-    link_blocks_[link].setZero();
-  }
+void BundleEquations::clear_link(std::size_t link) {
+  links_[link] = {};
+  link_blocks_[link].setZero();
+}
+
+void BundleEquations::drop_terms(std::size_t point) {
+  factors_[point] = {};
+  for (std::size_t t = structure_.term_begin[point]; t < structure_.term_begin[point + 1]; ++t)
+    active_[t] = 0;
+  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
+    clear_link(link);
+}
+
+/// Adds U and g of a link, the former below the diagonal only.
+void BundleEquations::add_link(const Link& link, Matrix6d& hessian, Vector6d& gradient) {
+  const Eigen::Matrix3d cross = skew(link.point_in_camera);
+  const Eigen::Matrix3d turned = link.hessian * cross.transpose();
+  hessian.topLeftCorner<3, 3>().noalias() += cross * turned;
+  hessian.bottomLeftCorner<3, 3>() += turned;
+  hessian.bottomRightCorner<3, 3>() += link.hessian;
+  gradient.head<3>() += link.point_in_camera.cross(link.gradient);
+  gradient.tail<3>() += link.gradient;
 }
 
 BundleEquations::PointFactor BundleEquations::factorise(const PointSums& sums, double lambda) {
@@ -165,13 +162,13 @@ void BundleEquations::build_column(std::size_t free, double lambda) {
             reduced_.blocks.begin() + static_cast<std::ptrdiff_t>(reduced_.begin[free + 1]),
             Matrix6d::Zero());
   for (const std::size_t link : structure_.links_of_free.of(free)) {
-    add_link(links_[link].point_in_camera, links_[link].expansion, hessian, gradient);
+    add_link(links_[link], hessian, gradient);
     const auto point = static_cast<std::size_t>(structure_.link_point[link]);
     const LinkBlock& own = link_blocks_[link];
     gradient.noalias() -= own * factors_[point].h;
     for (std::size_t other = link; other < structure_.link_begin[point + 1]; ++other)
-      reduced_.blocks[static_cast<std::size_t>(block_of_row[structure_.link_free[other]])].noalias() -=
-          link_blocks_[other].lazyProduct(own.transpose());
+      subtract_product(link_blocks_[other], own,
+                       reduced_.blocks[static_cast<std::size_t>(block_of_row[structure_.link_free[other]])]);
   }
   constexpr double kLeastDiagonal = 1e-6;  // so that a camera without observations stays
   hessian.diagonal() += lambda * hessian.diagonal().cwiseMax(kLeastDiagonal);
@@ -237,7 +234,7 @@ bool BundleEquations::price_point(std::size_t point, const std::vector<double>& 
     if (active_[t] == 0) continue;
     if (is_in_front(in_camera))
       state.term_costs[t] = kernel_cost(options_.kernel, options_.kernel_scale,
-                                        squared_error(rig_.project(in_camera) - term.seen, term));
+                                        term.squared_error(rig_.project(in_camera) - term.seen));
     else
       in_front = false;
   }

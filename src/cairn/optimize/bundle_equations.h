@@ -20,22 +20,6 @@ struct MatrixPose {
   }
 };
 
-/// Half the cost of one observation to second order, as iteratively reweighted Gauss-Newton takes it, in the
-/// displacement of the point in the camera: gradient P^T W e and Hessian P^T W P, with P the projection's
-/// derivative, e the residual and W the inverse variances times the kernel's weight.
-struct TermExpansion {
-  Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-};
-
-/// The point is in front of the camera.
-[[nodiscard]] TermExpansion expand_term(const Rig& rig, const Eigen::Vector3d& point_in_camera,
-                                        const BundleTerm& term, const BundleOptions& options);
-
-/// Whether observations determine a point: not where the information's smallest eigenvalue is about a
-/// billionth of its largest, which is a parallax of 3e-5 radians.
-[[nodiscard]] bool is_determined(const Eigen::Matrix3d& information);
-
 /// Where cameras and points are, and what each term costs there: rho(squared_error).
 struct BundleState {
   std::vector<Rigid3> camera_from_world;
@@ -57,7 +41,7 @@ struct BundleState {
 ///     (U - Y Y^T) step_cameras = -g_cameras + Y h,    step_points = -L^-T (h + Y^T step_cameras).
 ///
 /// A camera moved by (w, v) moves a point p in it by -[p]x w + v, so one link's blocks of U and Z follow from
-/// its expansion: with B = (-[p]x, I), U = B^T H B and Z = B^T H R.
+/// the gradient g and the Hessian H of its cost by p: with B = (-[p]x, I), U = B^T H B and Z = B^T H R.
 class BundleEquations {
  public:
   /// All must outlive this.
@@ -75,17 +59,13 @@ class BundleEquations {
   void price(BundleState& state) const;
 
  private:
-  /// A term of a free camera: what the cameras' part needs of it.
+  /// A term of a free camera: p, and gradient and Hessian of its cost by p.
   struct Link {
     Eigen::Vector3d point_in_camera = Eigen::Vector3d::Zero();
-    TermExpansion expansion;
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   };
   using LinkBlock = Eigen::Matrix<double, 6, 3>;
-  /// V and g of a point.
-  struct PointSums {
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  };
   /// L below the diagonal, its inverse diagonal, and h; all zero for a point that stays.
   struct PointFactor {
     double l10 = 0, l20 = 0, l21 = 0;
@@ -96,9 +76,11 @@ class BundleEquations {
   void find_pattern();
   void build_point(std::size_t point, const BundleState& state, double lambda);
   [[nodiscard]] PointSums expand_terms(std::size_t point, const BundleState& state);
-  void clear_links(std::size_t point);
+  void clear_link(std::size_t link);
+  void drop_terms(std::size_t point);
   [[nodiscard]] static PointFactor factorise(const PointSums& sums, double lambda);
   static void whiten(const PointFactor& factor, LinkBlock& block);
+  static void add_link(const Link& link, Matrix6d& hessian, Vector6d& gradient);
   void build_column(std::size_t free, double lambda);
   [[nodiscard]] Eigen::Vector3d point_step(std::size_t point) const;
   void move_cameras(const BundleState& from, BundleState& to) const;

@@ -71,7 +71,7 @@ TEST(BundleEquations, take_the_step_of_the_full_normal_equations) {
   }
 }
 
-TEST(BundleEquations, expand_a_term_to_the_derivative_of_its_cost) {
+TEST(TermExpansion, has_the_gradient_of_the_cost) {
   const Rig rig{525, 520, 319.5, 239.5, 0.12};
   const Eigen::Vector3d point(0.4, -0.7, 2.3);
   const BundleOptions options{.kernel = RobustKernel::cauchy, .kernel_scale = 3};
@@ -82,7 +82,8 @@ TEST(BundleEquations, expand_a_term_to_the_derivative_of_its_cost) {
       return 0.5 * kernel_cost(options.kernel, options.kernel_scale,
                                error.dot(term.inverse_variances.cwiseProduct(error)));
     };
-    const Eigen::Vector3d gradient = expand_term(rig, point, term, options).gradient;
+    const TermExpansion expansion(rig, point, term, options.kernel, options.kernel_scale);
+    const Eigen::Vector3d gradient = expansion.gradient();
     constexpr double kStep = 1e-6;
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(i);
@@ -92,7 +93,25 @@ TEST(BundleEquations, expand_a_term_to_the_derivative_of_its_cost) {
   }
 }
 
-TEST(BundleEquations, tell_which_points_are_determined) {
+TEST(TermExpansion, multiplies_by_the_projection_jacobian) {
+  const Rig rig{525, 520, 319.5, 239.5, 0.12};
+  const Eigen::Vector3d point(0.4, -0.7, 2.3);
+  const BundleTerm term = make_term({0, 0, {412, 83, 26, 0.7, 0.5}});
+  const TermExpansion expansion(rig, point, term, RobustKernel::none, 1);
+  const Eigen::Matrix3d dense = rig.projection_jacobian(point);
+  const Eigen::Matrix3d m = rotation_exp({0.3, 0.7, -1.1}).toRotationMatrix();
+  const auto near = [](const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+    return (a - b).norm() < 1e-12 * b.norm();
+  };
+  EXPECT_TRUE(near(expansion.jacobian_times(m), dense * m));
+  EXPECT_TRUE(near(expansion.transposed_times(m), dense.transpose() * m));
+  EXPECT_TRUE(near(expansion.hessian(), dense.transpose() * term.inverse_variances.asDiagonal() * dense));
+}
+
+TEST(PointSums, tell_which_points_are_determined) {
+  const auto is_determined = [](const Eigen::Matrix3d& information) {
+    return PointSums{information, Eigen::Vector3d::Zero()}.determine_point();
+  };
   const Eigen::Matrix3d across = Eigen::Vector3d(1, 1, 0).asDiagonal();
   EXPECT_FALSE(is_determined(Eigen::Matrix3d::Zero()));
   EXPECT_FALSE(is_determined(across));

@@ -58,11 +58,6 @@ Groups group_items(std::span<const std::int32_t> group_of, std::size_t count) {
   return groups;
 }
 
-BundleTerm make_term(const BundleObservation& observation) {
-  const Observation& seen = observation.seen;
-  return {{seen.u, seen.v, seen.has_disparity() ? seen.d : 0.0}, inverse_variances(seen), observation.camera};
-}
-
 void require_bundle(const BundleProblem& problem) {
   const auto cameras = static_cast<std::int32_t>(problem.camera_from_world.size());
   const auto points = static_cast<std::int32_t>(problem.points_in_world.size());

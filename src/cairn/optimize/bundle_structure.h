@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cairn/optimize/bundle_adjustment.h"
+#include "cairn/optimize/bundle_term.h"
 
 namespace cairn {
 
@@ -22,15 +22,6 @@ struct Groups {
 
 /// group_of[i] in [0, count).
 [[nodiscard]] Groups group_items(std::span<const std::int32_t> group_of, std::size_t count);
-
-/// One observation, ready for the equations.
-struct BundleTerm {
-  Eigen::Vector3d seen;               ///< u, v, d; 0 for a disparity that was not measured
-  Eigen::Vector3d inverse_variances;  ///< see inverse_variances
-  std::int32_t camera;
-};
-
-[[nodiscard]] BundleTerm make_term(const BundleObservation& observation);
 
 /// What does not change while a bundle is adjusted. Free cameras are counted in their order: `free` below is
 /// such a position. Terms lie by point, within a point those of free cameras first, in their order. A link is
