@@ -21,7 +21,7 @@ class Adjustment {
              const Executor& executor)
       : options_(options),
         equations_(problem.rig, structure, options, executor),
-        state_(problem),
+        state_(problem, structure),
         moved_(state_) {}
 
   [[nodiscard]] BundleReport run() {
@@ -69,12 +69,19 @@ class Adjustment {
   double lambda_ = 1e-4;
 };
 
-std::vector<char> find_inliers(const BundleProblem& problem, const BundleState& state) {
+void store(const BundleState& state, const BundleStructure& structure, BundleProblem& problem) {
+  problem.camera_from_world = state.camera_from_world;
+  for (std::size_t i = 0; i < structure.points.size(); ++i)
+    problem.points_in_world[static_cast<std::size_t>(structure.points[i])] = state.points[i];
+}
+
+std::vector<char> find_inliers(const BundleProblem& problem) {
+  const std::vector<MatrixPose> poses = to_matrix_poses(problem.camera_from_world);
   std::vector<char> inlier;
   inlier.reserve(problem.observations.size());
   for (const auto& [camera, point, seen] : problem.observations) {
     const Eigen::Vector3d in_camera =
-        state.matrix_poses[static_cast<std::size_t>(camera)] * state.points[static_cast<std::size_t>(point)];
+        poses[static_cast<std::size_t>(camera)] * problem.points_in_world[static_cast<std::size_t>(point)];
     inlier.push_back(squared_error(problem.rig, in_camera, seen) < squared_error_limit(seen) ? 1 : 0);
   }
   return inlier;
@@ -115,9 +122,8 @@ BundleReport adjust_bundle(BundleProblem& problem, const BundleOptions& options,
   const BundleStructure structure = analyse_bundle(problem);
   Adjustment adjustment(problem, structure, options, executor);
   BundleReport report = adjustment.run();
-  problem.camera_from_world = adjustment.state().camera_from_world;
-  problem.points_in_world = adjustment.state().points;
-  report.inlier = find_inliers(problem, adjustment.state());
+  store(adjustment.state(), structure, problem);
+  report.inlier = find_inliers(problem);
   return report;
 }
 
@@ -126,7 +132,7 @@ std::vector<Eigen::Matrix3d> point_covariances(const BundleProblem& problem,
                                                const Executor& executor) {
   require_bundle(problem);
   require(use_observation.size() == problem.observations.size(), "use_observation has one for each");
-  const BundleState state(problem);
+  const std::vector<MatrixPose> poses = to_matrix_poses(problem.camera_from_world);
   std::vector<std::int32_t> point_of;
   for (const auto& observation : problem.observations) point_of.push_back(observation.point);
   const Groups by_point = group_items(point_of, problem.points_in_world.size());
@@ -134,8 +140,8 @@ std::vector<Eigen::Matrix3d> point_covariances(const BundleProblem& problem,
     PointSums sums;
     for (const std::size_t i : by_point.of(point)) {
       const BundleObservation& observation = problem.observations[i];
-      const MatrixPose& pose = state.matrix_poses[static_cast<std::size_t>(observation.camera)];
-      const Eigen::Vector3d in_camera = pose * state.points[point];
+      const MatrixPose& pose = poses[static_cast<std::size_t>(observation.camera)];
+      const Eigen::Vector3d in_camera = pose * problem.points_in_world[point];
       if (use_observation[i] == 0 || !is_in_front(in_camera)) continue;
       sums.add({problem.rig, in_camera, make_term(observation), RobustKernel::none, 1.0}, pose.rotation);
     }

@@ -35,7 +35,7 @@ BundleEquations::BundleEquations(const Rig& rig, const BundleStructure& structur
       active_(structure.terms.size(), 1),
       links_(structure.link_free.size()),
       link_blocks_(structure.link_free.size()),
-      factors_(structure.points()) {
+      factors_(structure.points.size()) {
   find_pattern();
   solver_ = make_block_cholesky(reduced_, choose_method(reduced_));
 }
@@ -65,7 +65,7 @@ void BundleEquations::find_pattern() {
 }
 
 void BundleEquations::build(const BundleState& state, double lambda) {
-  executor_.for_each_chunk(structure_.points(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+  executor_.for_each_chunk(structure_.points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t point = begin; point < end; ++point) build_point(point, state, lambda);
   });
   executor_.for_each(structure_.free_cameras.size(), [&](std::size_t free) { build_column(free, lambda); });
@@ -195,7 +195,7 @@ Eigen::Vector3d BundleEquations::point_step(std::size_t point) const {
 
 void BundleEquations::move(const BundleState& from, BundleState& to) const {
   move_cameras(from, to);
-  executor_.for_each_chunk(structure_.points(), kPointGrain, [&](std::size_t begin, std::size_t end) {
+  executor_.for_each_chunk(structure_.points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t point = begin; point < end; ++point) move_point(point, from, to);
   });
   to.sum_costs();
@@ -217,7 +217,7 @@ void BundleEquations::move_point(std::size_t point, const BundleState& from, Bun
 }
 
 void BundleEquations::price(BundleState& state) const {
-  for (std::size_t point = 0; point < structure_.points(); ++point)
+  for (std::size_t point = 0; point < structure_.points.size(); ++point)
     price_point(point, state.term_costs, state);
   state.sum_costs();
 }
@@ -241,17 +241,24 @@ bool BundleEquations::price_point(std::size_t point, const std::vector<double>& 
   return in_front;
 }
 
-BundleState::BundleState(const BundleProblem& problem)
+BundleState::BundleState(const BundleProblem& problem, const BundleStructure& structure)
     : camera_from_world(problem.camera_from_world),
-      matrix_poses(camera_from_world.size()),
-      points(problem.points_in_world),
-      term_costs(problem.observations.size(), 0.0) {
-  for (std::size_t i = 0; i < camera_from_world.size(); ++i) set_camera(i, camera_from_world[i]);
+      matrix_poses(to_matrix_poses(camera_from_world)),
+      term_costs(structure.terms.size(), 0.0) {
+  for (const std::int32_t point : structure.points)
+    points.push_back(problem.points_in_world[static_cast<std::size_t>(point)]);
 }
 
 void BundleState::set_camera(std::size_t camera, const Rigid3& pose) {
   camera_from_world[camera] = pose;
-  matrix_poses[camera] = {pose.matrix3(), pose.translation};
+  matrix_poses[camera] = to_matrix_pose(pose);
+}
+
+std::vector<MatrixPose> to_matrix_poses(const std::vector<Rigid3>& poses) {
+  std::vector<MatrixPose> matrix_poses;
+  matrix_poses.reserve(poses.size());
+  for (const Rigid3& pose : poses) matrix_poses.push_back(to_matrix_pose(pose));
+  return matrix_poses;
 }
 
 void BundleState::sum_costs() {

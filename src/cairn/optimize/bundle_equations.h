@@ -20,16 +20,21 @@ struct MatrixPose {
   }
 };
 
+[[nodiscard]] inline MatrixPose to_matrix_pose(const Rigid3& pose) {
+  return {pose.matrix3(), pose.translation};
+}
+[[nodiscard]] std::vector<MatrixPose> to_matrix_poses(const std::vector<Rigid3>& poses);
+
 /// Where cameras and points are, and what each term costs there: rho(squared_error).
 struct BundleState {
   std::vector<Rigid3> camera_from_world;
   std::vector<MatrixPose> matrix_poses;  ///< the same
-  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> points;   ///< in the structure's order
   std::vector<double> term_costs;
   double cost = 0;  ///< half their sum
 
   /// The problem's start, at no cost.
-  explicit BundleState(const BundleProblem& problem);
+  BundleState(const BundleProblem& problem, const BundleStructure& structure);
   void set_camera(std::size_t camera, const Rigid3& pose);
   void sum_costs();
 };

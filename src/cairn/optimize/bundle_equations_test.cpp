@@ -45,7 +45,7 @@ TEST(BundleEquations, take_the_step_of_the_full_normal_equations) {
   const BundleOptions options;
   const Executor executor;
   BundleEquations equations(problem.rig, structure, options, executor);
-  BundleState from(problem), to(problem);
+  BundleState from(problem, structure), to(problem, structure);
   constexpr double kLambda = 0.01;
   equations.price(from);
   equations.build(from, kLambda);
@@ -64,10 +64,9 @@ TEST(BundleEquations, take_the_step_of_the_full_normal_equations) {
     const Vector6d moved = left_perturbation(from.camera_from_world[camera], to.camera_from_world[camera]);
     EXPECT_LT((moved - step.segment<6>(6 * i)).norm(), 1e-9) << camera;
   }
-  for (Eigen::Index j = 0; j < 30; ++j) {
-    const auto point = static_cast<std::size_t>(j);
-    const Eigen::Vector3d moved = to.points[point] - from.points[point];
-    EXPECT_LT((moved - step.segment<3>(first_point + 3 * j)).norm(), 1e-9) << point;
+  for (std::size_t j = 0; j < 30; ++j) {
+    const Eigen::Vector3d moved = to.points[j] - from.points[j];
+    EXPECT_LT((moved - step.segment<3>(first_point + 3 * structure.points[j])).norm(), 1e-9) << j;
   }
 }
 

@@ -2,7 +2,7 @@
 #include "cairn/optimize/bundle_structure.h"
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/pose_equations.h"
@@ -30,18 +30,37 @@ std::vector<std::int32_t> find_free(const BundleProblem& problem) {
   return free;
 }
 
-/// The observations' positions by point, within a point by rank.
+/// Positions sorted by key_of, a number in [0, count); equal keys keep their order.
+template <class KeyOf>
+std::vector<std::size_t> sort_by(const std::vector<std::size_t>& positions, std::size_t count,
+                                 const KeyOf& key_of) {
+  std::vector<std::int32_t> keys;
+  keys.reserve(positions.size());
+  for (const std::size_t position : positions) keys.push_back(key_of(position));
+  std::vector<std::size_t> sorted = group_items(keys, count).members;
+  for (std::size_t& member : sorted) member = positions[member];
+  return sorted;
+}
+
+/// The observations' positions: points by their first camera, within a point by camera. Then what one camera
+/// sees lies together in memory.
 std::vector<std::size_t> sort_observations(const BundleProblem& problem,
                                            const std::vector<std::int32_t>& ranks) {
-  std::vector<std::int32_t> keys;
-  for (const auto& observation : problem.observations)
-    keys.push_back(ranks[static_cast<std::size_t>(observation.camera)]);
-  std::vector<std::size_t> order = group_items(keys, ranks.size()).members;
-  for (std::size_t i = 0; i < order.size(); ++i) keys[i] = problem.observations[order[i]].point;
-  std::vector<std::size_t> sorted;
-  for (const std::size_t i : group_items(keys, problem.points_in_world.size()).members)
-    sorted.push_back(order[i]);
-  return sorted;
+  const auto& observations = problem.observations;
+  const std::size_t points = problem.points_in_world.size();
+  std::vector<std::size_t> order(observations.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto point_of = [&](std::size_t i) { return observations[i].point; };
+  const auto rank_of = [&](std::size_t i) { return ranks[static_cast<std::size_t>(observations[i].camera)]; };
+  order = sort_by(sort_by(order, points, point_of), ranks.size(), rank_of);
+  std::vector<std::int32_t> place_of(points, -1);
+  std::int32_t next = 0;
+  for (const std::size_t i : order) {
+    std::int32_t& place = place_of[static_cast<std::size_t>(point_of(i))];
+    if (place < 0) place = next++;
+  }
+  return sort_by(order, points,
+                 [&](std::size_t i) { return place_of[static_cast<std::size_t>(point_of(i))]; });
 }
 
 }  // namespace
@@ -82,28 +101,28 @@ BundleStructure analyse_bundle(const BundleProblem& problem) {
   structure.free_cameras = find_free(problem);
   const std::size_t free_count = structure.free_cameras.size();
   const std::vector<std::int32_t> ranks = rank_cameras(problem, free_count);
-  structure.term_begin.assign(problem.points_in_world.size() + 1, 0);
-  structure.link_begin = structure.term_begin;
-  std::int32_t last_point = -1, last_camera = -1;
   for (const std::size_t i : sort_observations(problem, ranks)) {
     const BundleObservation& observation = problem.observations[i];
-    require(observation.point != last_point || observation.camera != last_camera,
-            "a camera sees a point at most once");
-    last_point = observation.point, last_camera = observation.camera;
+    if (structure.points.empty() || structure.points.back() != observation.point)
+      structure.begin_point(observation.point);
+    else
+      require(structure.terms.back().camera != observation.camera, "a camera sees a point at most once");
     structure.terms.push_back(make_term(observation));
-    ++structure.term_begin[static_cast<std::size_t>(last_point) + 1];
-    const std::int32_t rank = ranks[static_cast<std::size_t>(last_camera)];
+    const std::int32_t rank = ranks[static_cast<std::size_t>(observation.camera)];
     if (rank >= static_cast<std::int32_t>(free_count)) continue;
-    ++structure.link_begin[static_cast<std::size_t>(last_point) + 1];
     structure.link_free.push_back(rank);
-    structure.link_point.push_back(last_point);
+    structure.link_point.push_back(static_cast<std::int32_t>(structure.points.size()) - 1);
   }
-  for (std::size_t j = 0; j < structure.points(); ++j) {
-    structure.term_begin[j + 1] += structure.term_begin[j];
-    structure.link_begin[j + 1] += structure.link_begin[j];
-  }
+  structure.term_begin.push_back(structure.terms.size());
+  structure.link_begin.push_back(structure.link_free.size());
   structure.links_of_free = group_items(structure.link_free, free_count);
   return structure;
+}
+
+void BundleStructure::begin_point(std::int32_t point) {
+  points.push_back(point);
+  term_begin.push_back(terms.size());
+  link_begin.push_back(link_free.size());
 }
 
 }  // namespace cairn
