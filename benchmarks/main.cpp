@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "bundle.h"
 #include "comparison.h"
 #include "features.h"
 #include "geometry.h"
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
     cairn::bench::add_matching(comparisons, inputs);
     cairn::bench::add_sift(comparisons, inputs);
     cairn::bench::add_geometry(comparisons);
+    cairn::bench::add_bundle(comparisons);
     return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "cairn_bench: {}\n", error.what());

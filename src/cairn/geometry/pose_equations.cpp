@@ -8,28 +8,22 @@
 #include "cairn/core/error.h"
 
 namespace cairn {
-namespace {
 
-bool usable(const Observation& seen) {
-  return std::isfinite(seen.u) && std::isfinite(seen.v) && seen.sigma_px > 0;
+bool is_usable(const Observation& seen) {
+  return std::isfinite(seen.u) && std::isfinite(seen.v) && seen.sigma_px > 0 &&
+         (!seen.has_disparity() || (std::isfinite(seen.d) && seen.sigma_d_px > 0));
 }
-
-}  // namespace
 
 void require_observations(std::span<const Eigen::Vector3d> points_in_world,
                           std::span<const Observation> seen) {
-  require(std::all_of(seen.begin(), seen.end(), usable), "pixels are finite");
+  require(std::all_of(seen.begin(), seen.end(), is_usable), "pixels are finite and sigmas above 0");
   require(std::all_of(points_in_world.begin(), points_in_world.end(),
                       [](const Eigen::Vector3d& point) { return point.allFinite(); }),
           "points are finite");
 }
 
 Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig, const Eigen::Vector3d& point_in_camera) {
-  const double inverse_depth = 1.0 / point_in_camera.z();
-  const double x = point_in_camera.x() * inverse_depth, y = point_in_camera.y() * inverse_depth;
-  Eigen::Matrix3d by_point;  // d(u, v, d) / d(x, y, z)
-  by_point << rig.fx, 0, -rig.fx * x, 0, rig.fy, -rig.fy * y, 0, 0, -rig.fx * rig.baseline * inverse_depth;
-  by_point *= inverse_depth;
+  const Eigen::Matrix3d by_point = rig.projection_jacobian(point_in_camera);
   Eigen::Matrix<double, 3, 6> jacobian;
   jacobian << -by_point * skew(point_in_camera), by_point;
   return jacobian;
@@ -40,9 +34,7 @@ void PoseEquations::add(const Rig& rig, const Eigen::Vector3d& point_in_camera, 
   const Eigen::Vector3d projected = rig.project(point_in_camera);
   const Eigen::Vector3d error(projected.x() - seen.u, projected.y() - seen.v,
                               seen.has_disparity() ? projected.z() - seen.d : 0.0);
-  const double pixel_weight = weight / (seen.sigma_px * seen.sigma_px);
-  const double disparity_weight = seen.has_disparity() ? weight / (seen.sigma_d_px * seen.sigma_d_px) : 0.0;
-  const Eigen::Vector3d weights(pixel_weight, pixel_weight, disparity_weight);
+  const Eigen::Vector3d weights = weight * inverse_variances(seen);
   const Eigen::Matrix<double, 3, 6> jacobian = observation_jacobian(rig, point_in_camera);
   hessian.noalias() += jacobian.transpose() * weights.asDiagonal() * jacobian;
   gradient.noalias() += jacobian.transpose() * weights.cwiseProduct(error);

@@ -15,7 +15,10 @@ namespace cairn {
 [[nodiscard]] Eigen::Matrix<double, 3, 6> observation_jacobian(const Rig& rig,
                                                                const Eigen::Vector3d& point_in_camera);
 
-/// PreconditionError unless points and pixels are finite and sigmas above 0.
+/// Pixels and a disparity are finite and their sigmas above 0.
+[[nodiscard]] bool is_usable(const Observation& seen);
+
+/// PreconditionError unless the points are finite and the observations usable.
 void require_observations(std::span<const Eigen::Vector3d> points_in_world,
                           std::span<const Observation> seen);
 

@@ -34,17 +34,36 @@ struct Rig {
     return {fx * point_in_camera.x() * inverse_depth + cx, fy * point_in_camera.y() * inverse_depth + cy,
             fx * baseline * inverse_depth};
   }
+  /// Its derivative: rows u, v, d; columns x, y, z.
+  [[nodiscard]] Eigen::Matrix3d projection_jacobian(const Eigen::Vector3d& point_in_camera) const {
+    const double inverse_depth = 1.0 / point_in_camera.z();
+    const double x = point_in_camera.x() * inverse_depth, y = point_in_camera.y() * inverse_depth;
+    Eigen::Matrix3d jacobian;
+    jacobian << fx, 0, -fx * x, 0, fy, -fy * y, 0, 0, -fx * baseline * inverse_depth;
+    return jacobian * inverse_depth;
+  }
   [[nodiscard]] Eigen::Vector3d point_at(double u, double v, double depth) const {
     return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};
   }
 };
 
+/// Whether a point can be seen: its depth is above a micrometre.
+[[nodiscard]] inline bool is_in_front(const Eigen::Vector3d& point_in_camera) {
+  constexpr double kMinDepth = 1e-6;
+  return point_in_camera.z() > kMinDepth;
+}
+
+/// The inverse variances of u, v and d; 0 for a disparity that was not measured.
+[[nodiscard]] inline Eigen::Vector3d inverse_variances(const Observation& seen) {
+  const double of_pixel = 1.0 / (seen.sigma_px * seen.sigma_px);
+  return {of_pixel, of_pixel, seen.has_disparity() ? 1.0 / (seen.sigma_d_px * seen.sigma_d_px) : 0.0};
+}
+
 /// Squared error of an observation in units of its standard deviations: (du^2 + dv^2) / sigma^2 [+ dd^2 /
 /// sigma_d^2]. Infinite for a point that is not in front of the camera.
 [[nodiscard]] inline double squared_error(const Rig& rig, const Eigen::Vector3d& point_in_camera,
                                           const Observation& seen) {
-  constexpr double kMinDepth = 1e-6;
-  if (!(point_in_camera.z() > kMinDepth)) return std::numeric_limits<double>::infinity();
+  if (!is_in_front(point_in_camera)) return std::numeric_limits<double>::infinity();
   const Eigen::Vector3d projected = rig.project(point_in_camera);
   const double du = (projected.x() - seen.u) / seen.sigma_px;
   const double dv = (projected.y() - seen.v) / seen.sigma_px;

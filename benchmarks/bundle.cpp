@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bundle.h"
+
+#include <memory>
+
+#include "cairn/optimize/bundle_test_ceres.h"
+#include "cairn/optimize/bundle_test_scene.h"
+
+namespace cairn::bench {
+namespace {
+
+/// The window of a SLAM run: half its keyframes free.
+constexpr BundleSceneOptions kStereoWindow{.cameras = 20, .fixed = 10, .points = 2000, .longest_track = 9};
+
+BundleSceneOptions mono_window() {
+  BundleSceneOptions options = kStereoWindow;
+  options.disparity_share = 0;
+  return options;
+}
+
+/// All keyframes of a round trip.
+constexpr BundleSceneOptions kRoundTrip{.cameras = 250, .fixed = 1, .points = 20000, .longest_track = 12};
+
+const BundleOptions kOptions{.max_iterations = 50, .converged_relative_cost = 1e-6};
+
+/// `peers` is the faster one of Ceres' two for the problem.
+void add(Comparisons& comparisons, const std::string& work, const BundleSceneOptions& scene,
+         ceres::LinearSolverType peers, double at_most_share) {
+  const auto problem = std::make_shared<const BundleProblem>(make_bundle_scene(1, scene).problem);
+  const auto ours = [problem] {
+    BundleProblem adjusted = *problem;
+    return adjust_bundle(adjusted, kOptions).cost_after;
+  };
+  const auto theirs = [problem, peers] { return CeresBundle(*problem).solve(kOptions, peers).final_cost; };
+  comparisons.timed.push_back(
+      {"bundle: " + work, 1, [ours] { (void)ours(); }, [theirs] { (void)theirs(); }, at_most_share, {}});
+  const double cost = theirs();
+  comparisons.quality.push_back({"bundle: cost above the peer's, parts in a million, " + work,
+                                 std::max(0.0, 1e6 * (ours() / cost - 1)),
+                                 0.0,
+                                 {},
+                                 1.0});
+}
+
+}  // namespace
+
+void add_bundle(Comparisons& comparisons) {
+  constexpr double kWindowShare = 0.2, kRoundTripShare = 0.5;
+  add(comparisons, "20 cameras, 2000 points, stereo", kStereoWindow, ceres::SPARSE_SCHUR, kWindowShare);
+  add(comparisons, "20 cameras, 2000 points, mono", mono_window(), ceres::SPARSE_SCHUR, kWindowShare);
+  add(comparisons, "250 cameras, 20000 points, stereo", kRoundTrip, ceres::SPARSE_SCHUR, kRoundTripShare);
+}
+
+}  // namespace cairn::bench

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cairn/core/executor.h"
+#include "cairn/optimize/block_cholesky.h"
+#include "cairn/optimize/bundle_structure.h"
+
+namespace cairn {
+
+/// camera_from_world with the rotation as a matrix, which is faster to apply to many points.
+struct MatrixPose {
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d translation;
+
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const {
+    return rotation * point + translation;
+  }
+};
+
+[[nodiscard]] inline MatrixPose to_matrix_pose(const Rigid3& pose) {
+  return {pose.matrix3(), pose.translation};
+}
+[[nodiscard]] std::vector<MatrixPose> to_matrix_poses(const std::vector<Rigid3>& poses);
+
+/// Where cameras and points are, and what each term costs there: rho(squared_error).
+struct BundleState {
+  std::vector<Rigid3> camera_from_world;
+  std::vector<MatrixPose> matrix_poses;  ///< the same
+  std::vector<Eigen::Vector3d> points;   ///< in the structure's order
+  std::vector<double> term_costs;
+  double cost = 0;  ///< half their sum
+
+  /// The problem's start, at no cost.
+  BundleState(const BundleProblem& problem, const BundleStructure& structure);
+  void set_camera(std::size_t camera, const Rigid3& pose);
+  void sum_costs();
+};
+
+/// The normal equations of a bundle. With U the cameras' part, V the points' (3x3 blocks on its diagonal) and
+/// Z between the two, J^T W J = (U Z; Z^T V), all damped by Marquardt's lambda times their diagonal. With V =
+/// L L^T (Cholesky), Y = Z L^-T and h = L^-1 g_points,
+///
+///     (U - Y Y^T) step_cameras = -g_cameras + Y h,    step_points = -L^-T (h + Y^T step_cameras).
+///
+/// A camera moved by (w, v) moves a point p in it by -[p]x w + v, so one link's blocks of U and Z follow from
+/// the gradient g and the Hessian H of its cost by p: with B = (-[p]x, I), U = B^T H B and Z = B^T H R.
+class BundleEquations {
+ public:
+  /// All must outlive this.
+  BundleEquations(const Rig& rig, const BundleStructure& structure, const BundleOptions& options,
+                  const Executor& executor);
+
+  /// Sets up the equations at the state. Terms behind their camera and of undetermined points are dropped.
+  void build(const BundleState& state, double lambda);
+  /// False where the cameras' equations have no solution.
+  [[nodiscard]] bool solve();
+  /// The state after the step, with its costs. A point that its step would take behind a camera stays; a
+  /// dropped term, and one that is behind its camera nevertheless, costs what it did.
+  void move(const BundleState& from, BundleState& to) const;
+  /// The costs at the state's places; a term behind its camera costs what it did.
+  void price(BundleState& state) const;
+
+ private:
+  /// A term of a free camera: p, and gradient and Hessian of its cost by p.
+  struct Link {
+    Eigen::Vector3d point_in_camera = Eigen::Vector3d::Zero();
+    Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
+  };
+  using LinkBlock = Eigen::Matrix<double, 6, 3>;
+  /// L below the diagonal, its inverse diagonal, and h; all zero for a point that stays.
+  struct PointFactor {
+    double l10 = 0, l20 = 0, l21 = 0;
+    Eigen::Vector3d inverse_diagonal = Eigen::Vector3d::Zero();
+    Eigen::Vector3d h = Eigen::Vector3d::Zero();
+  };
+
+  void find_pattern();
+  void build_point(std::size_t point, const BundleState& state, double lambda);
+  [[nodiscard]] PointSums expand_terms(std::size_t point, const BundleState& state);
+  void clear_link(std::size_t link);
+  void drop_terms(std::size_t point);
+  [[nodiscard]] static PointFactor factorise(const PointSums& sums, double lambda);
+  static void whiten(const PointFactor& factor, LinkBlock& block);
+  static void add_link(const Link& link, Matrix6d& hessian, Vector6d& gradient);
+  void build_column(std::size_t free, double lambda);
+  [[nodiscard]] Eigen::Vector3d point_step(std::size_t point) const;
+  void move_cameras(const BundleState& from, BundleState& to) const;
+  void move_point(std::size_t point, const BundleState& from, BundleState& to) const;
+  bool price_point(std::size_t point, const std::vector<double>& costs_before, BundleState& state) const;
+
+  const Rig& rig_;
+  const BundleStructure& structure_;
+  const BundleOptions& options_;
+  const Executor& executor_;
+  std::vector<char> active_;            // by term
+  std::vector<Link> links_;             // by link
+  std::vector<LinkBlock> link_blocks_;  // Z, then Y
+  std::vector<PointFactor> factors_;    // by point
+  BlockMatrix reduced_;                 // U - Y Y^T
+  std::vector<std::int32_t> block_of_;  // its block at (row, column) for each row of each column
+  std::unique_ptr<BlockCholesky> solver_;
+  Eigen::VectorXd right_, camera_step_;
+};
+
+}  // namespace cairn
