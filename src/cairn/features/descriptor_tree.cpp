@@ -58,11 +58,11 @@ DescriptorTree::DescriptorTree(const Descriptors& kind, const DescriptorTreeOpti
   std::iota(ascending_.begin(), ascending_.end(), 0);
 }
 
-void DescriptorTree::measure(const std::uint8_t* row, const std::uint64_t* rows, std::size_t count,
+void DescriptorTree::measure(const std::uint64_t* row, const std::uint64_t* rows, std::size_t count,
                              std::vector<std::int32_t>& distances) const {
   distances.resize(count);
   DistanceList list;
-  list.query = row;
+  list.query = reinterpret_cast<const std::uint8_t*>(row);
   list.rows = reinterpret_cast<const std::uint8_t*>(rows);
   list.words64 = words_;
   list.indices = ascending_.data();
@@ -71,7 +71,7 @@ void DescriptorTree::measure(const std::uint8_t* row, const std::uint64_t* rows,
   kernels_->to_rows(list);
 }
 
-std::size_t DescriptorTree::nearest_child(const std::uint8_t* row, Child branch,
+std::size_t DescriptorTree::nearest_child(const std::uint64_t* row, Child branch,
                                           std::vector<std::int32_t>& distances) const {
   const auto index = static_cast<std::size_t>(branch);
   measure(row, centres_.data() + index * fan_out_ * words_, static_cast<std::size_t>(used_[index]),
@@ -97,7 +97,8 @@ void DescriptorTree::append(Leaf& leaf, const std::uint64_t* row, std::int32_t o
     ascending_.push_back(static_cast<std::int32_t>(ascending_.size()));
 }
 
-void DescriptorTree::add(const std::uint8_t* row, std::int32_t owner) {
+void DescriptorTree::add(const Descriptors& descriptors, std::size_t i, std::int32_t owner) {
+  const std::uint64_t* row = descriptors.words() + i * words_;
   std::vector<std::int32_t> distances;
   Child at = root();
   std::size_t place = kNowhere;
@@ -106,7 +107,7 @@ void DescriptorTree::add(const std::uint8_t* row, std::int32_t owner) {
     at = children_[place];
   }
   Leaf& leaf = leaves_[static_cast<std::size_t>(~at)];
-  append(leaf, reinterpret_cast<const std::uint64_t*>(row), owner);
+  append(leaf, row, owner);
   if (leaf.owners.size() > leaf.capacity) cut(place);
 }
 
@@ -119,7 +120,7 @@ std::vector<std::uint64_t> DescriptorTree::choose_centres(const Leaf& leaf) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(options_.branching); ++i) {
     std::swap(order[i], order[i + random_.index(static_cast<std::uint32_t>(order.size() - i))]);
     const std::uint64_t* row = leaf.rows.data() + order[i] * words_;
-    measure(reinterpret_cast<const std::uint8_t*>(row), centres.data(), centres.size() / words_, distances);
+    measure(row, centres.data(), centres.size() / words_, distances);
     if (std::find(distances.begin(), distances.end(), 0) != distances.end()) continue;
     centres.insert(centres.end(), row, row + words_);
   }
@@ -158,7 +159,7 @@ void DescriptorTree::cut(std::size_t place) {
   std::vector<std::int32_t> distances;
   for (std::size_t i = 0; i < whole.owners.size(); ++i) {
     const std::uint64_t* row = whole.rows.data() + i * words_;
-    const std::size_t child = nearest_child(reinterpret_cast<const std::uint8_t*>(row), branch, distances);
+    const std::size_t child = nearest_child(row, branch, distances);
     append(leaves_[static_cast<std::size_t>(~children_[child])], row, whole.owners[i]);
   }
 }
@@ -182,7 +183,7 @@ void DescriptorTree::Descent::take_cheapest() {
 }
 
 /// From a branch to its nearest child; remembers the others as far as they may be wanted.
-void DescriptorTree::step_down(const std::uint8_t* row, Descent& descent,
+void DescriptorTree::step_down(const std::uint64_t* row, Descent& descent,
                                std::vector<std::int32_t>& distances) const {
   const std::size_t nearest = nearest_child(row, descent.at.child, distances);
   const std::size_t begin = static_cast<std::size_t>(descent.at.child) * fan_out_;
@@ -203,7 +204,7 @@ void DescriptorTree::descend(const Descriptors& queries, std::vector<Descent>& d
     moved = false;
     for (std::size_t q = 0; q < descents.size(); ++q) {
       if (descents[q].at.child < 0) continue;
-      step_down(queries.row(q), descents[q], distances);
+      step_down(queries.words() + q * words_, descents[q], distances);
       if (descents[q].at.child >= 0) fetch_branch(descents[q].at.child);
       moved = true;
     }

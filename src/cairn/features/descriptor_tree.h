@@ -39,8 +39,8 @@ class DescriptorTree {
   /// `kind`: of what norm and size the rows are.
   DescriptorTree(const Descriptors& kind, const DescriptorTreeOptions& options);
 
-  /// `row`: as long as the stride of a Descriptors of the tree's kind.
-  void add(const std::uint8_t* row, std::int32_t owner);
+  /// Adds row `i` of `descriptors`, which are of the tree's kind.
+  void add(const Descriptors& descriptors, std::size_t i, std::int32_t owner);
 
   /// Drops the rows of owners that are not `kept`.
   void keep(const std::function<bool(std::int32_t owner)>& kept);
@@ -60,9 +60,10 @@ class DescriptorTree {
     return leaves_[static_cast<std::size_t>(index)];
   }
 
-  /// Distances, as the kernels measure them, from `row` to all rows of a leaf.
-  void measure(const std::uint8_t* row, const Leaf& leaf, std::vector<std::int32_t>& distances) const {
-    measure(row, leaf.rows.data(), leaf.owners.size(), distances);
+  /// Distances, as the kernels measure them, from row `i` of `queries` to all rows of a leaf.
+  void measure(const Descriptors& queries, std::size_t i, const Leaf& leaf,
+               std::vector<std::int32_t>& distances) const {
+    measure(queries.words() + i * words_, leaf.rows.data(), leaf.owners.size(), distances);
   }
 
   /// Asks the memory for a leaf that will be measured soon.
@@ -89,12 +90,12 @@ class DescriptorTree {
   };
 
   [[nodiscard]] Child root() const { return used_.empty() ? ~0 : 0; }
-  void measure(const std::uint8_t* row, const std::uint64_t* rows, std::size_t count,
+  void measure(const std::uint64_t* row, const std::uint64_t* rows, std::size_t count,
                std::vector<std::int32_t>& distances) const;
   /// Index in children_ of the child of `branch` whose centre is nearest; `distances` to all centres.
-  std::size_t nearest_child(const std::uint8_t* row, Child branch,
+  std::size_t nearest_child(const std::uint64_t* row, Child branch,
                             std::vector<std::int32_t>& distances) const;
-  void step_down(const std::uint8_t* row, Descent& descent, std::vector<std::int32_t>& distances) const;
+  void step_down(const std::uint64_t* row, Descent& descent, std::vector<std::int32_t>& distances) const;
   void descend(const Descriptors& queries, std::vector<Descent>& descents) const;
   void fetch_branch(Child branch) const;
   [[nodiscard]] std::vector<std::uint64_t> choose_centres(const Leaf& leaf);

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(DescriptorTree, EachKind,
 /// Owner i has row i.
 DescriptorTree grow(const Descriptors& rows, const DescriptorTreeOptions& options = {}) {
   DescriptorTree tree(rows, options);
-  for (std::size_t i = 0; i < rows.count(); ++i) tree.add(rows.row(i), static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < rows.count(); ++i) tree.add(rows, i, static_cast<std::int32_t>(i));
   return tree;
 }
 
@@ -105,7 +105,7 @@ TEST_P(EachKind, measures_what_the_kernels_measure) {
   const Descriptors rows = random_descriptors(10, 5);
   const DescriptorTree tree = grow(rows);
   std::vector<std::int32_t> distances;
-  tree.measure(rows.row(3), tree.leaf(0), distances);
+  tree.measure(rows, 3, tree.leaf(0), distances);
   ASSERT_EQ(distances.size(), 10U);
   for (std::size_t i = 0; i < 10; ++i) {
     int expected = 0;

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 #include <utility>
 
 #include "cairn/core/error.h"
@@ -31,14 +31,14 @@ class LeafVoting {
              std::int32_t max_measured)
       : tree_(tree), descriptors_(descriptors), admitted_(admitted), max_measured_(max_measured) {}
 
-  /// [first, last): all visits of one leaf.
-  void vote(const Visit* first, const Visit* last, std::vector<Vote>& votes) {
-    const DescriptorTree::Leaf& leaf = tree_.leaf(first->leaf);
+  /// `visits`: all of one leaf.
+  void vote(std::span<const Visit> visits, std::vector<Vote>& votes) {
+    const DescriptorTree::Leaf& leaf = tree_.leaf(visits.front().leaf);
     nearest_.assign(leaf.owners.size(), {kNoDistance, -1});
-    for (const Visit* visit = first; visit != last; ++visit) {
-      tree_.measure(descriptors_.row(static_cast<std::size_t>(visit->query)), leaf, distances_);
+    for (const Visit& visit : visits) {
+      tree_.measure(descriptors_, static_cast<std::size_t>(visit.query), leaf, distances_);
       for (std::size_t i = 0; i < distances_.size(); ++i)
-        if (distances_[i] < nearest_[i].first) nearest_[i] = {distances_[i], visit->query};
+        if (distances_[i] < nearest_[i].first) nearest_[i] = {distances_[i], visit.query};
     }
     for (std::size_t i = 0; i < nearest_.size(); ++i)
       if (nearest_[i].first <= max_measured_ && admitted_[static_cast<std::size_t>(leaf.owners[i])] != 0)
@@ -63,7 +63,7 @@ std::vector<Vote> collect_votes(const DescriptorTree& tree, const Descriptors& d
   for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
     while (end < visits.size() && visits[end].leaf == visits[begin].leaf) ++end;
     if (end < visits.size()) tree.fetch(tree.leaf(visits[end].leaf));
-    voting.vote(visits.data() + begin, visits.data() + end, votes);
+    voting.vote(std::span(visits).subspan(begin, end - begin), votes);
   }
   return votes;
 }
@@ -117,11 +117,9 @@ PlaceIndex::PlaceIndex(const PlaceIndexOptions& options) : options_(options) {
 }
 
 void PlaceIndex::take_kind(const Descriptors& descriptors) {
-  if (!tree_) {
-    kind_ = Descriptors(descriptors.norm(), descriptors.bytes(), 0);
-    tree_.emplace(kind_, options_.tree);
-  }
+  if (!tree_) kind_ = Descriptors(descriptors.norm(), descriptors.bytes(), 0);
   require_comparable(descriptors, kind_);
+  if (!tree_) tree_.emplace(kind_, options_.tree);
 }
 
 /// Descriptors of one image show different points. Some pairs are enough, which lie far apart in the list,
@@ -157,7 +155,7 @@ void PlaceIndex::add(std::int32_t id, const Descriptors& descriptors) {
   const auto slot = static_cast<Slot>(keyframes_.size());
   keyframes_.push_back({id, descriptors.count(), true});
   slots_.emplace(id, slot);
-  for (std::size_t i = 0; i < descriptors.count(); ++i) tree_->add(descriptors.row(i), slot);
+  for (std::size_t i = 0; i < descriptors.count(); ++i) tree_->add(descriptors, i, slot);
   rows_ += descriptors.count();
 }
 
