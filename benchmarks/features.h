@@ -21,6 +21,7 @@ struct Inputs {
 /// Each adds its rows; the inputs must live as long as the comparisons.
 void add_orb(Comparisons& comparisons, const Inputs& inputs);
 void add_matching(Comparisons& comparisons, const Inputs& inputs);
+void add_places(Comparisons& comparisons, const Inputs& inputs);
 void add_sift(Comparisons& comparisons, const Inputs& inputs);
 
 }  // namespace cairn::bench

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
     cairn::bench::Comparisons comparisons;
     cairn::bench::add_orb(comparisons, inputs);
     cairn::bench::add_matching(comparisons, inputs);
+    cairn::bench::add_places(comparisons, inputs);
     cairn::bench::add_sift(comparisons, inputs);
     cairn::bench::add_geometry(comparisons);
     cairn::bench::add_bundle(comparisons);
