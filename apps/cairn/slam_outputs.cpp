@@ -57,10 +57,11 @@ double share(std::int64_t part, std::int64_t whole) {
 }
 
 /// Poses of the keyframes' frames; nothing for all others.
-std::vector<std::optional<Rigid3>> keyframe_poses(const Sequence& sequence, const KeyframeMap& map) {
-  std::vector<std::optional<Rigid3>> poses(sequence.frames.size());
+std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& sequence, const KeyframeMap& map) {
+  std::vector<std::optional<WorldFromCamera>> poses(sequence.frames.size());
   for (const Keyframe& keyframe : map.keyframes)
-    poses[static_cast<std::size_t>(keyframe.observed.frame.value)] = keyframe.world_from_camera;
+    poses[static_cast<std::size_t>(keyframe.observed.frame.value)] =
+        WorldFromCamera(keyframe.world_from_camera);
   return poses;
 }
 

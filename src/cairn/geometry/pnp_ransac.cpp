@@ -89,7 +89,7 @@ PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> poin
   require_observations(points_in_world, seen);
   const PnpProblem problem{rig, points_in_world, seen};
   const RansacResult<CameraPose> found = Ransac(problem, options).run();
-  return {found, {Eigen::Quaterniond(found.model.rotation), found.model.translation}};
+  return {found, CameraFromWorld({Eigen::Quaterniond(found.model.rotation), found.model.translation})};
 }
 
 }  // namespace cairn

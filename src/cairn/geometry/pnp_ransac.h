@@ -3,13 +3,14 @@
 
 #include <span>
 
+#include "cairn/geometry/framed.h"
 #include "cairn/geometry/ransac.h"
 #include "cairn/geometry/rig.h"
 
 namespace cairn {
 
 struct PnpResult : RansacReport {
-  Rigid3 camera_from_world;
+  CameraFromWorld camera_from_world;
 };
 
 /// Camera pose from points and their observations in RANSAC: P3P (solve_p3p), scored by squared_error with

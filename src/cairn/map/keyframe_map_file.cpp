@@ -86,7 +86,7 @@ void write_keyframe_map(const std::filesystem::path& folder, const KeyframeMap& 
         {folder.string(), 0, "to make the folder", error.message(), "Check the path and the disk."});
   Trajectory poses;
   for (const Keyframe& keyframe : map.keyframes) {
-    poses.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
+    poses.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
     const std::string name = fmt::format("{:06}.{}", keyframe.observed.frame.value, lower(map.descriptor));
     write_file(folder / "frames" / name, format_frame_file(keyframe.observed));
   }

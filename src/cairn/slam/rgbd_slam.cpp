@@ -93,7 +93,8 @@ Trajectory RgbdSlamResult::trajectory() const {
     if (!track.tracked()) continue;
     const Rigid3& world_from_reference =
         map.keyframes[static_cast<std::size_t>(track.reference->value)].world_from_camera;
-    trajectory.push_back({track.stamp_ns, world_from_reference * track.reference_from_frame});
+    trajectory.push_back(
+        {track.stamp_ns, WorldFromCamera(world_from_reference * track.reference_from_frame)});
   }
   return trajectory;
 }
@@ -101,7 +102,7 @@ Trajectory RgbdSlamResult::trajectory() const {
 Trajectory RgbdSlamResult::keyframe_trajectory() const {
   Trajectory trajectory;
   for (const Keyframe& keyframe : map.keyframes)
-    trajectory.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
+    trajectory.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
   return trajectory;
 }
 
