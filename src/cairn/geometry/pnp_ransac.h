@@ -19,4 +19,11 @@ struct PnpResult : RansacReport {
 [[nodiscard]] PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                          std::span<const Observation> seen, const RansacOptions& options);
 
+/// Which observations a pose from elsewhere explains, and whether so many would agree by chance with some
+/// pose as well: status is ok, by_chance, or too_few_data for fewer than P3P takes. PreconditionError as
+/// above.
+[[nodiscard]] RansacReport judge_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
+                                      std::span<const Observation> seen,
+                                      const CameraFromWorld& camera_from_world);
+
 }  // namespace cairn
