@@ -52,9 +52,8 @@ void declare(CLI::App& app, AlignArguments& arguments) {
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(
       "Example: cairn align run/ recording/ --plot alignment.svg\n"
-      "Least squares over the camera centres in closed form (Umeyama 1991). Exit code 1: the poses do not "
-      "determine "
-      "it.");
+      "Least squares over the camera centres in closed form (Umeyama 1991). Exit code 1: the poses do not\n"
+      "determine it.");
 }
 
 /// Nothing, after a message, where no stamps are near each other.
@@ -93,11 +92,14 @@ void print_alignment(const Aligned& aligned) {
              aligned.alignment.rmse);
 }
 
-void print_alignment_json(const Aligned& aligned) {
+nlohmann::ordered_json to_json(const Aligned& aligned) {
+  const AlignmentStatus status = aligned.alignment.status;
+  nlohmann::ordered_json json;
+  json["status"] = aligned.pairs.empty() ? "no_pairs" : word_for(status);
+  json["pairs"] = aligned.pairs.size();
+  if (status != AlignmentStatus::ok) return json;
   const Similarity3& map = aligned.alignment.target_from_source;
   const Eigen::Matrix3d R = map.rotation.toRotationMatrix();
-  nlohmann::ordered_json json;
-  json["pairs"] = aligned.pairs.size();
   json["direction"] = "reference_from_estimate";
   json["rotation"] = {{R(0, 0), R(0, 1), R(0, 2)}, {R(1, 0), R(1, 1), R(1, 2)}, {R(2, 0), R(2, 1), R(2, 2)}};
   add_similarity(map, json);
@@ -105,7 +107,7 @@ void print_alignment_json(const Aligned& aligned) {
   json["rms_before_m"] = aligned.rms_before_m;
   json["rms_after_m"] = aligned.alignment.rmse;
   json["turn_uncertainty_deg"] = 180.0 / std::numbers::pi * aligned.alignment.turn_uncertainty;
-  fmt::print("{}\n", json.dump(2));
+  return json;
 }
 
 std::string draw_alignment(const Aligned& aligned) {
@@ -133,17 +135,18 @@ int run_align(int argc, char** argv) {
   declare(app, arguments);
   if (const auto code = parse(app, argc, argv)) return *code;
   Aligned aligned{arguments, read_pairs(arguments), {}, 0};
-  if (aligned.pairs.empty()) return 1;
   aligned.alignment = align_pairs(aligned.pairs, arguments.with_scale);
   aligned.rms_before_m = rms_distance(aligned.pairs);
+  if (arguments.common.json) fmt::print("{}\n", to_json(aligned).dump(2));
   if (aligned.alignment.status != AlignmentStatus::ok) {
-    fmt::print(stderr, "cairn: no alignment from {} pairs: {}.\n", aligned.pairs.size(),
-               explain(aligned.alignment.status));
+    if (!aligned.pairs.empty())
+      fmt::print(stderr, "cairn: no alignment from {} pairs: {}.\n", aligned.pairs.size(),
+                 explain(aligned.alignment.status));
     return 1;
   }
   warn_of_free_turn(short_name(arguments.estimate), aligned.alignment.turn_uncertainty);
   if (!arguments.plot.empty()) write_file(arguments.plot, draw_alignment(aligned));
-  arguments.common.json ? print_alignment_json(aligned) : print_alignment(aligned);
+  if (!arguments.common.json) print_alignment(aligned);
   return 0;
 }
 

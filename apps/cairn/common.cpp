@@ -193,8 +193,9 @@ CLI::Validator number_in(double low, double high) {
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help("cairn"));
+    return 0;
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "cairn {}: {}\n  'cairn {} --help' shows the options and an example.\n",
                app.get_name(), complaint(app, error, argc, argv), app.get_name());

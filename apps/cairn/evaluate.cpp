@@ -123,9 +123,13 @@ int run_evaluate(int argc, char** argv) {
   for (const auto& evaluated : evaluations.estimates) print_doubts(evaluations, evaluated);
   const auto failed = std::count_if(evaluations.estimates.begin(), evaluations.estimates.end(),
                                     [](const auto& e) { return e.result.status != EvaluationStatus::ok; });
-  if (failed == std::ssize(evaluations.estimates)) return 1;
-  if (!arguments.plot.empty()) write_file(arguments.plot, draw_evaluations(evaluations));
-  arguments.common.json ? print_evaluations_json(evaluations) : print_evaluations(evaluations);
+  const bool any = failed < std::ssize(evaluations.estimates);
+  if (any && !arguments.plot.empty()) write_file(arguments.plot, draw_evaluations(evaluations));
+  if (arguments.common.json) {
+    print_evaluations_json(evaluations);
+  } else if (any) {
+    print_evaluations(evaluations);
+  }
   return failed == 0 ? 0 : 1;
 }
 

@@ -27,23 +27,7 @@ void add_statistics(const std::string& prefix, const std::string& unit,
   put("max", &ErrorStatistics::max);
 }
 
-std::string_view word_for(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::too_few_points:
-      return "too_few_points";
-    case AlignmentStatus::one_place:
-      return "one_place";
-    case AlignmentStatus::one_line:
-      return "one_line";
-    case AlignmentStatus::mirrored:
-      return "mirrored";
-    case AlignmentStatus::ok:
-      break;
-  }
-  return "ok";
-}
-
-std::string_view word_for(EvaluationStatus status) {
+std::string_view status_word(EvaluationStatus status) {
   switch (status) {
     case EvaluationStatus::no_pairs:
       return "no_pairs";
@@ -112,7 +96,7 @@ Json evaluated_json(const EvaluateArguments& arguments, const Trajectory& refere
   Json json;
   json["estimate"] = path;
   json["reference"] = arguments.reference;
-  json["status"] = word_for(result.status);
+  json["status"] = status_word(result.status);
   json["pairs"] = result.pairs.size();
   json["estimate_poses"] = estimate.size();
   json["reference_poses"] = reference.size();

@@ -22,6 +22,9 @@ void add_feature_options(CLI::App& app, FeatureArguments& arguments) {
       ->check(CLI::Range(1, 10'000'000))
       ->type_name("N")
       ->capture_default_str();
+}
+
+void add_repeat_option(CLI::App& app, FeatureArguments& arguments) {
   app.add_option("--repeat", arguments.repeat,
                  "the time is the median of so many runs, decoding not included")
       ->check(CLI::Range(1, 1'000'000))

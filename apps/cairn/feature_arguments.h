@@ -22,6 +22,8 @@ struct FeatureArguments {
 };
 
 void add_feature_options(CLI::App& app, FeatureArguments& arguments);
+/// For the commands that print times.
+void add_repeat_option(CLI::App& app, FeatureArguments& arguments);
 
 /// Features of one image and how long they took.
 struct TimedFeatures {

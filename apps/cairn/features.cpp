@@ -22,6 +22,7 @@ struct FeaturesArguments : FeatureArguments {
 void declare(CLI::App& app, FeaturesArguments& arguments) {
   app.add_option("IMG", arguments.images, "images: PNG, JPEG, binary PGM or PPM")->required();
   add_feature_options(app, arguments);
+  add_repeat_option(app, arguments);
   app.add_option("--draw", arguments.draw, "picture of one image's keypoints with their scale and angle")
       ->type_name("OUT.png");
   app.add_option("--output", arguments.output, "one image's keypoints: u v size angle_deg response")

@@ -13,7 +13,7 @@ namespace cairn::app {
 /// frames.
 struct PosedSequence {
   Sequence sequence;
-  std::vector<std::optional<Rigid3>> world_from_camera;
+  std::vector<std::optional<WorldFromCamera>> world_from_camera;
 };
 
 /// `poses` may be empty where the sequence has truth.

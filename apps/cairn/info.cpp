@@ -137,13 +137,13 @@ void print_json(const Sequence& sequence) {
 }  // namespace
 
 int run_info(int argc, char** argv) {
-  CLI::App app("What a sequence is: format, frames, cameras, truth.\n\nexample: cairn info demo/room",
-               "info");
+  CLI::App app("What a sequence is: format, frames, cameras, truth.", "info");
   CommonOptions common;
   SequenceArguments arguments;
   app.add_option("SEQ", arguments.folder, "folder with a sequence")->required();
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.quiet = false});
+  app.footer("Example: cairn info demo/room");
   if (const auto code = parse(app, argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration

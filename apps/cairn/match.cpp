@@ -24,6 +24,7 @@ void declare(CLI::App& app, MatchArguments& arguments) {
   app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM")->required();
   app.add_option("B", arguments.second, "image to find A's features in")->required();
   add_feature_options(app, arguments);
+  add_repeat_option(app, arguments);
   app.add_option(
          "--ratio", arguments.options.max_ratio,
          "believe a match only if it is nearer than this share of the second nearest; 0: no such test")

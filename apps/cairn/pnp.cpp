@@ -130,10 +130,11 @@ PnpInput inliers_of(const PnpInput& input, const std::vector<std::int32_t>& inli
 /// What came out.
 struct PnpReport {
   std::size_t points = 0;
-  std::optional<PnpResult> ransac;
+  std::optional<PnpResult> ransac;  ///< not with --start identity
   std::size_t used = 0;
   PoseFit fit;
-  double rms_px = 0;  ///< of the points used: root mean square of the distance in the image
+  RansacReport judged;  ///< of the fit's pose, by all points; where the fit is ok
+  double rms_px = 0;    ///< of the points used: root mean square of the distance in the image
 };
 
 double rms_px_of(const PnpInput& input, const Rigid3& camera_from_world) {
@@ -145,22 +146,26 @@ double rms_px_of(const PnpInput& input, const Rigid3& camera_from_world) {
   return std::sqrt(sum / static_cast<double>(input.seen.size()));
 }
 
+void fit_to(const PnpInput& chosen, const CameraFromWorld& start, const PoseFitOptions& options,
+            PnpReport& report) {
+  report.used = chosen.points.size();
+  report.fit = fit_pose(chosen.rig, chosen.points, chosen.seen, start, options);
+  report.rms_px = rms_px_of(chosen, report.fit.camera_from_world);
+}
+
 PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
   PnpReport report;
   report.points = input.points.size();
   if (arguments.start == "identity") {
-    report.used = input.points.size();
-    report.fit = fit_pose(input.rig, input.points, input.seen, {}, arguments.fit);
-    report.rms_px = rms_px_of(input, report.fit.camera_from_world);
-    return report;
+    fit_to(input, {}, arguments.fit, report);
+  } else {
+    report.ransac = solve_pnp_ransac(input.rig, input.points, input.seen, arguments.ransac);
+    if (!report.ransac->found()) return report;
+    fit_to(inliers_of(input, report.ransac->inliers), report.ransac->camera_from_world, arguments.fit,
+           report);
   }
-  report.ransac = solve_pnp_ransac(input.rig, input.points, input.seen, arguments.ransac);
-  if (!report.ransac->found()) return report;
-  const PnpInput chosen = inliers_of(input, report.ransac->inliers);
-  report.used = chosen.points.size();
-  report.fit =
-      fit_pose(chosen.rig, chosen.points, chosen.seen, report.ransac->camera_from_world, arguments.fit);
-  report.rms_px = rms_px_of(chosen, report.fit.camera_from_world);
+  if (report.fit.status == PoseFitStatus::ok)
+    report.judged = judge_pose(input.rig, input.points, input.seen, report.fit.camera_from_world);
   return report;
 }
 
@@ -168,7 +173,13 @@ PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
 std::string failure_of(const PnpReport& report) {
   if (report.ransac && !report.ransac->found()) return std::string(to_string(report.ransac->status));
   if (report.fit.status != PoseFitStatus::ok) return std::string(to_string(report.fit.status));
+  if (!report.judged.found()) return std::string(to_string(report.judged.status));
   return "";
+}
+
+/// Where steps are left, the pose so far is of use to who follows them; any other failure has none.
+bool has_pose(const PnpReport& report) {
+  return failure_of(report).empty() || report.fit.status == PoseFitStatus::not_converged;
 }
 
 void print_trace(const PoseFit& fit) {
@@ -180,18 +191,7 @@ void print_trace(const PoseFit& fit) {
   }
 }
 
-void print_report(const PnpArguments& arguments, const PnpReport& report) {
-  if (report.ransac)
-    fmt::print("ransac        {} of {} points agree, {} samples, 10^{:.0f} false alarms expected\n",
-               report.ransac->inliers.size(), report.points, report.ransac->iterations,
-               report.ransac->log10_false_alarms);
-  const PoseFit& fit = report.fit;
-  if (arguments.trace) print_trace(fit);
-  fmt::print("points        {} used of {}\n", report.used, report.points);
-  fmt::print("iterations    {}, {}\n", fit.iterations(), to_string(fit.status));
-  fmt::print("cost          {:.10g}  half the sum of squares over sigma^2{}\n", fit.cost,
-             arguments.kernel == "none" ? "" : ", with the kernel");
-  fmt::print("residual      {:.6g} px RMS\n", report.rms_px);
+void print_pose(const PnpArguments& arguments, const PoseFit& fit) {
   const Eigen::Matrix3d R = fit.camera_from_world.matrix3();
   for (int i = 0; i < 3; ++i)
     fmt::print("{:<13} {:12.9f} {:12.9f} {:12.9f} {:14.9f}\n",
@@ -207,6 +207,24 @@ void print_report(const PnpArguments& arguments, const PnpReport& report) {
   fmt::print("std move      {:.3g} {:.3g} {:.3g} m\n", deviation[3], deviation[4], deviation[5]);
   fmt::print("variance      {:.4g} times what sigma {} px says; multiply the stds by its root\n",
              fit.variance_factor, arguments.sigma_px);
+}
+
+void print_report(const PnpArguments& arguments, const PnpReport& report) {
+  if (report.ransac)
+    fmt::print("ransac        {} of {} points agree, {} samples, 10^{:.0f} false alarms expected\n",
+               report.ransac->inliers.size(), report.points, report.ransac->iterations,
+               report.ransac->log10_false_alarms);
+  const PoseFit& fit = report.fit;
+  if (arguments.trace) print_trace(fit);
+  fmt::print("points        {} used of {}\n", report.used, report.points);
+  fmt::print("iterations    {}, {}\n", fit.iterations(), to_string(fit.status));
+  fmt::print("cost          {:.10g}  half the sum of squares over sigma^2{}\n", fit.cost,
+             arguments.kernel == "none" ? "" : ", with the kernel");
+  fmt::print("residual      {:.6g} px RMS\n", report.rms_px);
+  if (!report.ransac && fit.status == PoseFitStatus::ok)
+    fmt::print("agreement     {} of {} points within the 95 % limit of sigma\n", report.judged.inliers.size(),
+               report.points);
+  if (has_pose(report)) print_pose(arguments, fit);
 }
 
 nlohmann::ordered_json rows_of(const Eigen::MatrixXd& matrix) {
@@ -229,17 +247,19 @@ nlohmann::ordered_json to_json(const PnpReport& report) {
     json["log10_false_alarms"] = report.ransac->log10_false_alarms;
   }
   if (report.fit.trace.empty()) return json;
-  Eigen::Matrix<double, 3, 4> camera_from_world;
-  camera_from_world << report.fit.camera_from_world.matrix3(), report.fit.camera_from_world.translation;
   json["iterations"] = report.fit.iterations();
   json["cost"] = report.fit.cost;
   json["rms_px"] = report.rms_px;
-  json["camera_from_world"] = rows_of(camera_from_world);
-  json["covariance"] = rows_of(report.fit.covariance);
-  json["variance_factor"] = report.fit.variance_factor;
   for (const PoseFitIteration& row : report.fit.trace)
     json["trace"].push_back(
         {{"cost", row.cost}, {"step", row.step}, {"lambda", row.lambda}, {"accepted", row.accepted}});
+  if (!has_pose(report)) return json;
+  Eigen::Matrix<double, 3, 4> camera_from_world;
+  camera_from_world << report.fit.camera_from_world.matrix3(), report.fit.camera_from_world.translation;
+  json["camera_from_world"] = rows_of(camera_from_world);
+  if (report.fit.status != PoseFitStatus::ok) return json;
+  json["covariance"] = rows_of(report.fit.covariance);
+  json["variance_factor"] = report.fit.variance_factor;
   return json;
 }
 

@@ -29,10 +29,7 @@ void print_report(const RectifiedReport& report, const std::string& folder, bool
 }  // namespace
 
 int run_rectify(int argc, char** argv) {
-  CLI::App app(
-      "The rectified pairs of a stereo sequence, in KITTI layout.\n\n"
-      "example: cairn rectify V1_01_easy -o rectified",
-      "rectify");
+  CLI::App app("The rectified pairs of a stereo sequence, in KITTI layout.", "rectify");
   CommonOptions common;
   SequenceArguments arguments;
   std::string output;
@@ -42,6 +39,7 @@ int run_rectify(int argc, char** argv) {
       ->type_name("DIR");
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.threads = true});
+  app.footer("Example: cairn rectify V1_01_easy -o rectified");
   if (const auto code = parse(app, argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   OutputFolder folder(output, "sequence");

@@ -107,8 +107,8 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
 }  // namespace
 
 int run_simulate(int argc, char** argv) {
-  CLI::App app("A simulated recording with exact truth.\n\nexample: cairn simulate room -o demo/room",
-               "simulate");
+  CLI::App app("A simulated recording with exact truth.", "simulate");
+  app.footer("Example: cairn simulate room -o demo/room");
   app.require_subcommand(1);
   Arguments arguments;
   SimulateRoomOptions room_options;

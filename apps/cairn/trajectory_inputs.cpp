@@ -65,15 +65,31 @@ std::string_view explain(AlignmentStatus status) {
   return "";
 }
 
+std::string_view word_for(AlignmentStatus status) {
+  switch (status) {
+    case AlignmentStatus::too_few_points:
+      return "too_few_points";
+    case AlignmentStatus::one_place:
+      return "one_place";
+    case AlignmentStatus::one_line:
+      return "one_line";
+    case AlignmentStatus::mirrored:
+      return "mirrored";
+    case AlignmentStatus::ok:
+      break;
+  }
+  return "ok";
+}
+
 void warn_of_free_turn(std::string_view name, double turn_uncertainty) {
   constexpr double kFreeDeg = 10;
   const double degrees = 180.0 / std::numbers::pi * turn_uncertainty;
   if (degrees <= kFreeDeg) return;
-  fmt::print(
-      stderr,
-      "cairn: {}: the poses lie nearly on one line: the turn about it, and with it every rotation after the\n"
-      "  alignment, is good to about {:.0f} deg only.\n",
-      name, degrees);
+  fmt::print(stderr,
+             "cairn: {}: for residuals of this size the poses lie too near to one line: the turn about it, "
+             "and with it\n"
+             "  every rotation after the alignment, is good to about {:.0f} deg only.\n",
+             name, degrees);
 }
 
 std::string short_name(const std::string& path) {

@@ -23,6 +23,8 @@ namespace cairn::app {
                                            double max_gap_s);
 /// Why there is no alignment; part of a sentence, empty for ok.
 [[nodiscard]] std::string_view explain(AlignmentStatus status);
+/// The same in one word, for JSON.
+[[nodiscard]] std::string_view word_for(AlignmentStatus status);
 /// Says on stderr where the turn about the main line of the path is hardly determined
 /// (Alignment::turn_uncertainty, radians). `name` is the estimate's.
 void warn_of_free_turn(std::string_view name, double turn_uncertainty);

@@ -9,6 +9,8 @@ FOREIGN = (file("out/thesis.tex", "years of work"),)
 
 CASES = [
     Case("help", "--help", code=0, prints=("usage: cairn COMMAND", "exit codes: 0 done")),
+    Case("help of a command", "pnp --help", code=0, prints=("Usage: cairn pnp [OPTIONS] POINTS PIXELS", "Example: cairn pnp")),
+    Case("help of a command's command", "simulate room --help", code=0, prints=("Usage: cairn simulate room [OPTIONS]",)),
     Case("version", "--version", code=0, prints=("cairn 0.",)),
     Case("unknown command", "simulat", ("'simulat' is no command", "Did you mean 'simulate'?")),
     Case("unknown option", "info --frobnicate seq", ("cairn info:", "--frobnicate", "cairn info --help")),

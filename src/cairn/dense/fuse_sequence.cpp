@@ -40,7 +40,7 @@ ReducedFrame reduce_frame(const FrameLoader& loader, FrameId id, const PixelRays
 
 /// The frames that have pose and depth; counts those that have not.
 std::vector<FrameId> frames_to_fuse(const Sequence& sequence,
-                                    const std::vector<std::optional<Rigid3>>& world_from_camera,
+                                    const std::vector<std::optional<WorldFromCamera>>& world_from_camera,
                                     FusionReport& report) {
   std::vector<FrameId> ids;
   for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
@@ -73,7 +73,7 @@ void require_frames(const Sequence& sequence, const FusionReport& report) {
 }  // namespace
 
 FusionReport fuse_sequence(const Sequence& sequence,
-                           const std::vector<std::optional<Rigid3>>& world_from_camera,
+                           const std::vector<std::optional<WorldFromCamera>>& world_from_camera,
                            const FusionTargets& targets, const Executor& executor, Progress& progress) {
   require(world_from_camera.size() == sequence.frames.size(), "one element for each frame");
   require_depth(sequence);

@@ -34,7 +34,7 @@ struct FusionTargets {
 /// frame in the middle whose images cannot be read is reported by progress.warn and left out. InputError
 /// where the sequence has no depth, no frame has a pose, or the first of them cannot be read.
 FusionReport fuse_sequence(const Sequence& sequence,
-                           const std::vector<std::optional<Rigid3>>& world_from_camera,
+                           const std::vector<std::optional<WorldFromCamera>>& world_from_camera,
                            const FusionTargets& targets, const Executor& executor, Progress& progress);
 
 }  // namespace cairn

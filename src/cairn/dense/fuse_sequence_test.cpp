@@ -111,8 +111,9 @@ TEST(FuseSequence, WithoutDepthItIsAnInputError) {
   Sequence sequence = open_sequence(write_sequence("flat"));
   sequence.calibration.depth.reset();
   Progress silent;
-  EXPECT_THROW(fuse_sequence(sequence, std::vector<std::optional<Rigid3>>(kFrames), {}, Executor(), silent),
-               InputError);
+  EXPECT_THROW(
+      fuse_sequence(sequence, std::vector<std::optional<WorldFromCamera>>(kFrames), {}, Executor(), silent),
+      InputError);
 }
 
 TEST(FuseSequence, StopsWhenAsked) {

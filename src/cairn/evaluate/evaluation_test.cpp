@@ -35,7 +35,8 @@ Rigid3 estimated_pose(int i) {
 
 Trajectory trajectory_of(Rigid3 (*pose)(int), std::int64_t offset_ns = 0, int count = 12) {
   Trajectory trajectory;
-  for (int i = 0; i < count; ++i) trajectory.push_back({i * 100'000'000LL + offset_ns, pose(i)});
+  for (int i = 0; i < count; ++i)
+    trajectory.push_back({i * 100'000'000LL + offset_ns, WorldFromCamera(pose(i))});
   return trajectory;
 }
 
@@ -299,7 +300,7 @@ TEST(Evaluation, MatchesMotionCaptureWithItself) {
   const Similarity3 moved{0.5, rotation_exp({1, 2, 3}), {10, 20, 30}};
   Trajectory estimate;
   for (std::size_t i = 0; i < truth.size(); i += 3)
-    estimate.push_back({truth[i].stamp_ns + 1'000'000, moved * truth[i].world_from_camera});
+    estimate.push_back({truth[i].stamp_ns + 1'000'000, WorldFromCamera(moved * truth[i].world_from_camera)});
   const TrajectoryEvaluation found =
       evaluate_trajectory(estimate, truth, options_with(AlignmentMode::sim3, {{1, RpeUnit::frames, false}}));
   ASSERT_EQ(found.status, EvaluationStatus::ok);

@@ -19,7 +19,8 @@ namespace {
 Trajectory at_ms(std::initializer_list<int> stamps_ms) {
   Trajectory trajectory;
   for (const int stamp : stamps_ms)
-    trajectory.push_back({stamp * 1'000'000LL, {Eigen::Quaterniond::Identity(), {0.001 * stamp, 0, 0}}});
+    trajectory.push_back(
+        {stamp * 1'000'000LL, WorldFromCamera({Eigen::Quaterniond::Identity(), {0.001 * stamp, 0, 0}})});
   return trajectory;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/pnp_ransac.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "cairn/core/error.h"
@@ -81,15 +82,37 @@ struct PnpProblem {
   }
 };
 
+PnpProblem problem_of(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
+                      std::span<const Observation> seen) {
+  require(points_in_world.size() == seen.size(), "each point has one observation");
+  require_observations(points_in_world, seen);
+  return {rig, points_in_world, seen};
+}
+
 }  // namespace
 
 PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                            std::span<const Observation> seen, const RansacOptions& options) {
-  require(points_in_world.size() == seen.size(), "each point has one observation");
-  require_observations(points_in_world, seen);
-  const PnpProblem problem{rig, points_in_world, seen};
+  const PnpProblem problem = problem_of(rig, points_in_world, seen);
   const RansacResult<CameraPose> found = Ransac(problem, options).run();
-  return {found, {Eigen::Quaterniond(found.model.rotation), found.model.translation}};
+  return {found, CameraFromWorld({Eigen::Quaterniond(found.model.rotation), found.model.translation})};
+}
+
+RansacReport judge_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
+                        std::span<const Observation> seen, const CameraFromWorld& camera_from_world) {
+  const PnpProblem problem = problem_of(rig, points_in_world, seen);
+  RansacReport report;
+  if (seen.size() < PnpProblem::kSampleSize) return report;
+  const CameraPose pose = pose_of(camera_from_world);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const double error = problem.squared_error(pose, i), limit = problem.limit(i);
+    if (error < limit) report.inliers.push_back(static_cast<std::int32_t>(i));
+    report.cost += std::min(error, limit);
+  }
+  report.log10_false_alarms = log10_false_alarms(report.inliers.size(), seen.size(), PnpProblem::kSampleSize,
+                                                 PnpProblem::kMaxModels, problem.chance());
+  report.status = report.verdict();
+  return report;
 }
 
 }  // namespace cairn

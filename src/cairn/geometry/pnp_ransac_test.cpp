@@ -12,7 +12,7 @@ namespace {
 constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
 
 struct Scene {
-  Rigid3 camera_from_world;
+  CameraFromWorld camera_from_world;
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
 };
@@ -22,8 +22,9 @@ struct Scene {
 Scene make_scene(int count, int outliers, std::uint64_t seed) {
   Random random(seed);
   Scene scene;
-  scene.camera_from_world = {rotation_exp({random.normal(), random.normal(), random.normal()}),
-                             {random.normal(), random.normal(), random.normal()}};
+  scene.camera_from_world =
+      CameraFromWorld({rotation_exp({random.normal(), random.normal(), random.normal()}),
+                       {random.normal(), random.normal(), random.normal()}});
   const Rigid3 world_from_camera = scene.camera_from_world.inverse();
   for (int i = 0; i < count; ++i) {
     const double depth = random.uniform(1, 5);
@@ -95,6 +96,25 @@ TEST(PnpRansac, finds_nothing_where_all_points_are_one) {
   for (auto& point : scene.points) point = scene.points[0];
   for (auto& seen : scene.seen) seen = scene.seen[0];
   EXPECT_FALSE(solve_pnp_ransac(kRig, scene.points, scene.seen, {}).found());
+}
+
+TEST(JudgePose, says_of_its_own_pose_what_ransac_says) {
+  const Scene scene = make_scene(200, 100, 47);
+  const PnpResult found = solve_pnp_ransac(kRig, scene.points, scene.seen, {});
+  const RansacReport judged = judge_pose(kRig, scene.points, scene.seen, found.camera_from_world);
+  EXPECT_EQ(judged.status, RansacStatus::ok);
+  EXPECT_EQ(judged.inliers, found.inliers);
+  EXPECT_NEAR(judged.cost, found.cost, 1e-9);
+  EXPECT_EQ(judged.log10_false_alarms, found.log10_false_alarms);
+}
+
+TEST(JudgePose, does_not_believe_a_wrong_pose_nor_too_few_points) {
+  const Scene scene = make_scene(200, 0, 48), few = make_scene(2, 0, 49);
+  Vector6d xi;
+  xi << 0.2, -0.1, 0.3, 0.1, 0.2, 0.3;
+  const CameraFromWorld wrong = perturb_left(xi, scene.camera_from_world);
+  EXPECT_EQ(judge_pose(kRig, scene.points, scene.seen, wrong).status, RansacStatus::by_chance);
+  EXPECT_EQ(judge_pose(kRig, few.points, few.seen, few.camera_from_world).status, RansacStatus::too_few_data);
 }
 
 TEST(PnpRansac, repeats_itself_from_the_seed) {

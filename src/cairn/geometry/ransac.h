@@ -43,6 +43,11 @@ struct RansacReport {
   /// with each other; the model is believed below -2.
   double log10_false_alarms = 0;
 
+  /// What the number of false alarms says of a model that is determined.
+  [[nodiscard]] RansacStatus verdict() const {
+    constexpr double kBelieved = -2;
+    return log10_false_alarms < kBelieved ? RansacStatus::ok : RansacStatus::by_chance;
+  }
   [[nodiscard]] bool found() const { return status == RansacStatus::ok; }
 };
 
@@ -175,9 +180,7 @@ class Ransac {
     result_.log10_false_alarms =
         log10_false_alarms(result_.inliers.size(), problem_.size(), Problem::kSampleSize, Problem::kMaxModels,
                            problem_.chance());
-    constexpr double kBelieved = -2;
-    const bool by_chance = !(result_.log10_false_alarms < kBelieved);
-    if (determined || by_chance) result_.status = by_chance ? RansacStatus::by_chance : RansacStatus::ok;
+    if (determined || result_.verdict() == RansacStatus::by_chance) result_.status = result_.verdict();
   }
 
   const Problem& problem_;

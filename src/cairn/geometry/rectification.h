@@ -4,14 +4,16 @@
 #include <Eigen/Geometry>
 
 #include "cairn/geometry/camera.h"
-#include "cairn/geometry/rigid3.h"
+#include "cairn/geometry/framed.h"
 
 namespace cairn {
+
+using LeftFromRight = Transform<frame::Left, frame::Right>;
 
 /// Two cameras that are fixed to each other, as they are: any models, any sizes.
 struct StereoPair {
   Camera left, right;
-  Rigid3 left_from_right;  ///< metres
+  LeftFromRight left_from_right;  ///< metres
 };
 
 enum class RectificationStatus {

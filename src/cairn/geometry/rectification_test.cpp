@@ -38,8 +38,8 @@ std::ostream& operator<<(std::ostream& stream, const NamedPair& named) {
   return stream << named.name;
 }
 
-Rigid3 right_camera(const Eigen::Vector3d& rotation_vector, const Eigen::Vector3d& translation) {
-  return {rotation_exp(rotation_vector), translation};
+LeftFromRight right_camera(const Eigen::Vector3d& rotation_vector, const Eigen::Vector3d& translation) {
+  return LeftFromRight({rotation_exp(rotation_vector), translation});
 }
 
 std::vector<NamedPair> all_pairs() {
@@ -51,7 +51,8 @@ std::vector<NamedPair> all_pairs() {
         return Eigen::Vector3d(random.uniform(-limit, limit), random.uniform(-limit, limit),
                                random.uniform(-limit, limit));
       };
-      const Rigid3 left_from_right = right_camera(small(0.1), Eigen::Vector3d(0.2, 0, 0) + small(0.02));
+      const LeftFromRight left_from_right =
+          right_camera(small(0.1), Eigen::Vector3d(0.2, 0, 0) + small(0.02));
       pairs.push_back({std::string(to_string(left.model)) + "_and_" + std::string(to_string(right.model)),
                        {left, right, left_from_right}});
     }

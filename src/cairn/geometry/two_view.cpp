@@ -61,7 +61,7 @@ void choose_motion(const Views& views, TwoViewResult& result) {
                                                  : decompose_essential(result.essential.model).candidates();
   for (std::size_t i = 0; i < 4; ++i) {
     TwoViewMotion& motion = result.motions[i];
-    motion.b_from_a = {candidates[i].rotation, candidates[i].translation.normalized()};
+    motion.b_from_a = BFromA({candidates[i].rotation, candidates[i].translation.normalized()});
     motion.parted = count_parted(views, inliers, motion.b_from_a.rotation);
     std::vector<TwoViewPoint> points = triangulate_all(views, inliers, motion.b_from_a);
     motion.in_front = points.size();

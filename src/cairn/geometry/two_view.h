@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/geometry/essential.h"
+#include "cairn/geometry/framed.h"
 #include "cairn/geometry/ransac.h"
 #include "cairn/geometry/triangulation.h"
 #include "cairn/geometry/two_view_choice.h"
@@ -35,9 +36,12 @@ struct TwoViewPoint {
   TriangulatedPoint triangulated;
 };
 
+/// Up to scale, as two views do not show it.
+using BFromA = Transform<frame::ViewB, frame::ViewA>;
+
 /// A possible motion and how many of the inliers it sees from both sides of the baseline as it should.
 struct TwoViewMotion {
-  Rigid3 b_from_a;           ///< translation of length 1
+  BFromA b_from_a;           ///< translation of length 1
   std::size_t in_front = 0;  ///< inliers in front of both cameras, their rays at min_angle or more
   std::size_t parted = 0;    ///< inliers whose rays meet at min_angle or more, wherever
 };
@@ -48,7 +52,7 @@ struct TwoViewResult {
   ModelChoice choice;
   std::array<TwoViewMotion, 4> motions;  ///< of the chosen model's matrix; all the identity for a rotation
   std::size_t motion = 0;                ///< the one with most inliers in front
-  Rigid3 b_from_a;                       ///< that one; for a rotation, the rotation
+  BFromA b_from_a;                       ///< that one; for a rotation, the rotation
   std::vector<TwoViewPoint> points;      ///< inliers in front, in the unit of the translation
 };
 

@@ -18,7 +18,7 @@ class Fit {
       const PoseFitOptions& options)
       : rig_(rig), points_(points), seen_(seen), options_(options) {}
 
-  [[nodiscard]] PoseFit run(const Rigid3& start) {
+  [[nodiscard]] PoseFit run(const CameraFromWorld& start) {
     result_.camera_from_world = start;
     result_.cost = cost(start);
     result_.trace.push_back({result_.cost, 0, 0, true});
@@ -58,7 +58,7 @@ class Fit {
     if (damped) normal.hessian.diagonal() *= 1.0 + lambda_;
     const auto xi = normal.solve();
     if (!xi) return PoseFitStatus::undetermined;
-    const Rigid3 moved = perturb_left(*xi, result_.camera_from_world);
+    const CameraFromWorld moved = perturb_left(*xi, result_.camera_from_world);
     const double moved_cost = cost(moved);
     constexpr double kRounding = 1e-12;  // relative error of the cost
     const bool accepted = moved_cost <= result_.cost * (1 + kRounding);
@@ -119,7 +119,7 @@ std::string_view to_string(PoseFitStatus status) {
 }
 
 PoseFit fit_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
-                 std::span<const Observation> seen, const Rigid3& initial_camera_from_world,
+                 std::span<const Observation> seen, const CameraFromWorld& initial_camera_from_world,
                  const PoseFitOptions& options) {
   options.validate();
   require(points_in_world.size() == seen.size(), "each point has one observation");

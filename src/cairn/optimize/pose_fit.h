@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cairn/geometry/framed.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/optimize/robust_kernel.h"
 
@@ -43,7 +44,7 @@ enum class PoseFitStatus {
 
 struct PoseFit {
   PoseFitStatus status = PoseFitStatus::too_few_points;
-  Rigid3 camera_from_world;             ///< the best so far where status is not ok
+  CameraFromWorld camera_from_world;    ///< the best so far where status is not ok
   std::vector<PoseFitIteration> trace;  ///< the start, then each step tried
   double cost = 0;                      ///< half the sum of rho(squared_error), as in the trace
   /// Of the left perturbation (rotation, translation) at the observations' sigmas: the inverse of J^T W J.
@@ -67,7 +68,8 @@ struct PoseFit {
 /// otherwise. Unlike refine_pose it leaves no observation out. PreconditionError for points and pixels that
 /// are not finite. Deterministic, one thread.
 [[nodiscard]] PoseFit fit_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
-                               std::span<const Observation> seen, const Rigid3& initial_camera_from_world,
+                               std::span<const Observation> seen,
+                               const CameraFromWorld& initial_camera_from_world,
                                const PoseFitOptions& options = {});
 
 }  // namespace cairn

@@ -18,7 +18,7 @@ namespace {
 constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
 
 struct Scene {
-  Rigid3 camera_from_world;
+  CameraFromWorld camera_from_world;
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
 };
@@ -28,8 +28,9 @@ struct Scene {
 Scene make_scene(std::uint64_t seed, int count, double noise = 1, int outliers = 0) {
   Random random(seed);
   Scene scene;
-  scene.camera_from_world = {rotation_exp({random.normal(), random.normal(), random.normal()}),
-                             {random.normal(), random.normal(), random.normal()}};
+  scene.camera_from_world =
+      CameraFromWorld({rotation_exp({random.normal(), random.normal(), random.normal()}),
+                       {random.normal(), random.normal(), random.normal()}});
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d in_camera =
         kRig.point_at(random.uniform(0, 639), random.uniform(0, 479), random.uniform(1, 5));
@@ -42,7 +43,7 @@ Scene make_scene(std::uint64_t seed, int count, double noise = 1, int outliers =
   return scene;
 }
 
-Rigid3 nudged(const Rigid3& pose, double size = 1) {
+CameraFromWorld nudged(const CameraFromWorld& pose, double size = 1) {
   Vector6d xi;
   xi << 0.02, -0.03, 0.01, 0.03, 0.02, -0.02;
   return perturb_left(size * xi, pose);
@@ -155,7 +156,7 @@ TEST(PoseFit, says_why_there_is_no_pose) {
   }
   EXPECT_EQ(fit(scene).status, PoseFitStatus::undetermined);
   scene = make_scene(5, 20);
-  const Rigid3 turned = Rigid3{rotation_exp({0, 3.1, 0}), {0, 0, 0}} * scene.camera_from_world;
+  const CameraFromWorld turned(Rigid3{rotation_exp({0, 3.1, 0}), {0, 0, 0}} * scene.camera_from_world);
   EXPECT_EQ(fit_pose(kRig, scene.points, scene.seen, turned).status, PoseFitStatus::behind_camera);
   EXPECT_EQ(fit(scene, {.max_iterations = 1}).status, PoseFitStatus::not_converged);
   scene.points[2].z() = std::nan("");

@@ -32,7 +32,7 @@ PoseEquations build(const Problem& problem, const std::vector<std::int32_t>& use
 
 /// False where the observations do not determine the pose.
 bool minimise(const Problem& problem, const std::vector<std::int32_t>& used, const PoseOnlyOptions& options,
-              Rigid3& camera_from_world) {
+              CameraFromWorld& camera_from_world) {
   for (int iteration = 0; iteration < options.iterations_per_round; ++iteration) {
     const auto step = build(problem, used, camera_from_world, options.huber_px).solve();
     if (!step) return false;
@@ -77,8 +77,8 @@ void fill_statistics(const Problem& problem, PoseOnlyResult& result) {
 }  // namespace
 
 PoseOnlyResult refine_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
-                           std::span<const Observation> seen, const Rigid3& initial_camera_from_world,
-                           const PoseOnlyOptions& options) {
+                           std::span<const Observation> seen,
+                           const CameraFromWorld& initial_camera_from_world, const PoseOnlyOptions& options) {
   require(points_in_world.size() == seen.size(), "each point has one observation");
   const Problem problem{rig, points_in_world, seen};
   constexpr std::size_t kFewest = 4;

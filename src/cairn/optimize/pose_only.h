@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cairn/geometry/framed.h"
 #include "cairn/geometry/rig.h"
 
 namespace cairn {
@@ -21,7 +22,7 @@ struct PoseOnlyOptions {
 
 struct PoseOnlyResult {
   bool solved = false;  ///< false: fewer than 4 inliers were left, or the pose is not determined by them
-  Rigid3 camera_from_world;
+  CameraFromWorld camera_from_world;
   /// Inverse covariance of the left perturbation (rotation, translation), see perturb_left; from the inliers,
   /// at unit variance.
   Matrix6d information = Matrix6d::Zero();
@@ -37,7 +38,7 @@ struct PoseOnlyResult {
 /// may come back.
 [[nodiscard]] PoseOnlyResult refine_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                          std::span<const Observation> seen,
-                                         const Rigid3& initial_camera_from_world,
+                                         const CameraFromWorld& initial_camera_from_world,
                                          const PoseOnlyOptions& options = {});
 
 }  // namespace cairn

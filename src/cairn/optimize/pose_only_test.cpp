@@ -13,7 +13,7 @@ namespace {
 constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
 
 struct Scene {
-  Rigid3 camera_from_world;
+  CameraFromWorld camera_from_world;
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
 };
@@ -23,8 +23,9 @@ struct Scene {
 Scene make_scene(int count, std::uint64_t seed) {
   Random random(seed);
   Scene scene;
-  scene.camera_from_world = {rotation_exp({random.normal(), random.normal(), random.normal()}),
-                             {random.normal(), random.normal(), random.normal()}};
+  scene.camera_from_world =
+      CameraFromWorld({rotation_exp({random.normal(), random.normal(), random.normal()}),
+                       {random.normal(), random.normal(), random.normal()}});
   const Rigid3 world_from_camera = scene.camera_from_world.inverse();
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d in_camera =
@@ -42,7 +43,7 @@ Scene make_scene(int count, std::uint64_t seed) {
   return scene;
 }
 
-Rigid3 nudge(const Rigid3& pose) {
+CameraFromWorld nudge(const CameraFromWorld& pose) {
   Vector6d xi;
   xi << 0.02, -0.03, 0.01, 0.03, 0.02, -0.02;
   return perturb_left(xi, pose);

@@ -112,9 +112,9 @@ void parse_right(const YamlMapping& mapping, Calibration& calibration) {
   mapping.check(!calibration.depth, "camera", "'baseline' instead, as there is 'depth'; nothing");
   mapping.expect("left_from_right", "where the right camera sits");
   const YamlMapping transform = mapping.sub("left_from_right", {"translation", "quaternion_xyzw"});
-  set_raw_stereo(
-      {calibration.camera, parse_camera(mapping.sub("camera", kCameraKeys)), parse_transform(transform)},
-      {transform.file(), transform.line()}, calibration);
+  set_raw_stereo({calibration.camera, parse_camera(mapping.sub("camera", kCameraKeys)),
+                  LeftFromRight(parse_transform(transform))},
+                 {transform.file(), transform.line()}, calibration);
 }
 
 std::string format_transform(const Rigid3& transform) {
@@ -143,7 +143,7 @@ Calibration tum_calibration(double fx, double fy, double cx, double cy,
   return calibration;
 }
 
-InputError::Details why_no_pair(RectificationStatus status, const Rigid3& left_from_right) {
+InputError::Details why_no_pair(RectificationStatus status, const LeftFromRight& left_from_right) {
   const Eigen::Vector3d& t = left_from_right.translation;
   const std::string found = fmt::format("the right one at ({:g}, {:g}, {:g}) m", t.x(), t.y(), t.z());
   if (status == RectificationStatus::no_baseline)

@@ -61,12 +61,12 @@ RoomPath::RoomPath(const Shape& shape) : shape_(shape) {
   steps_ = std::max(1, static_cast<int>(std::lround(kStepsPerSecond * shape.duration)));
 }
 
-Rigid3 RoomPath::world_from_camera(double share) const {
+WorldFromCamera RoomPath::world_from_camera(double share) const {
   const int loops = shape_.loops;
   const double around = kTurn * loops * share;
   const double radius = radius_ * (1 + 0.1 * wave(share, 3 * loops, 0.4) + 0.1 * wave(share, 1, 2.0));
   const double bob = wave(share, steps_, 0), sway = wave(share, std::max(1, steps_ / 2), 1.0);
-  Rigid3 pose;
+  WorldFromCamera pose;
   pose.translation =
       shape_.center + Eigen::Vector3d(1.1 * radius * std::cos(around), 0.9 * radius * std::sin(around),
                                       0.06 * wave(share, 2 * loops + 1, 1.3) + 0.006 * bob);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cairn/geometry/rigid3.h"
+#include "cairn/geometry/framed.h"
 
 namespace cairn {
 
@@ -26,7 +26,7 @@ class RoomPath {
 
   explicit RoomPath(const Shape& shape);
   /// `share` of the way, in [0, 1); at 1 it is where it began.
-  [[nodiscard]] Rigid3 world_from_camera(double share) const;
+  [[nodiscard]] WorldFromCamera world_from_camera(double share) const;
 
  private:
   Shape shape_;

@@ -96,7 +96,7 @@ Trajectory read_truth(const fs::path& truth_folder, const Rigid3& body_from_left
   Trajectory truth;
   for (const TextLine& line : file.lines()) {
     const std::int64_t stamp_ns = stamp_in(file, line, truth.empty() ? nullptr : &truth.back().stamp_ns);
-    truth.push_back({stamp_ns, parse_pose(file, line) * tracked_from_left});
+    truth.push_back({stamp_ns, WorldFromCamera(parse_pose(file, line) * tracked_from_left)});
   }
   return truth;
 }
@@ -114,7 +114,7 @@ void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence
   pair_images(root, options.max_stamp_gap_s, sequence);
   const fs::path left = root / "cam0/sensor.yaml", right = root / "cam1/sensor.yaml";
   if (sequence.calibration_source.empty()) {
-    const Rigid3 left_from_right = read_body_from_sensor(left).inverse() * read_body_from_sensor(right);
+    const LeftFromRight left_from_right(read_body_from_sensor(left).inverse() * read_body_from_sensor(right));
     set_raw_stereo({read_asl_camera(left), read_asl_camera(right), left_from_right}, {right.string()},
                    sequence.calibration);
     sequence.calibration_source = fmt::format("{} and cam1", left.string());

@@ -101,7 +101,7 @@ std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
                     fmt::format("{}", stamps.size()), "Add or delete lines, or images."});
 }
 
-Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
+WorldFromCamera parse_pose(const TextFile& file, const TextLine& line) {
   file.expect_fields(line, 12, "3x4 world_from_camera by rows");
   Eigen::Matrix<double, 3, 4> m;
   for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i), "the pose");
@@ -115,7 +115,7 @@ Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
                   : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
               "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
   }
-  return {nearest_rotation(r), m.col(3)};
+  return WorldFromCamera({nearest_rotation(r), m.col(3)});
 }
 
 Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& stamps) {

@@ -13,7 +13,7 @@ namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
-using PosesOfFrames = std::vector<std::optional<Rigid3>>;
+using PosesOfFrames = std::vector<std::optional<WorldFromCamera>>;
 
 PosesOfFrames poses_by_time(const Sequence& sequence, const Trajectory& trajectory, double max_gap_s) {
   std::vector<std::int64_t> frame_stamps, pose_stamps;
@@ -29,7 +29,7 @@ PosesOfFrames poses_by_time(const Sequence& sequence, const Trajectory& trajecto
 
 /// The stamps are frame numbers, read as seconds.
 PosesOfFrames poses_by_number(const Sequence& sequence, const Trajectory& trajectory) {
-  std::map<std::int64_t, Rigid3> pose_of_number;
+  std::map<std::int64_t, WorldFromCamera> pose_of_number;
   for (const StampedPose& pose : trajectory)
     pose_of_number[pose.stamp_ns / 1'000'000'000] = pose.world_from_camera;
   PosesOfFrames poses;

@@ -20,7 +20,7 @@ class PosesOfFramesTest : public testing::Test, protected TestFolder {
     return sequence;
   }
   /// The x of each pose, -1 where there is none.
-  static std::vector<double> xs(const std::vector<std::optional<Rigid3>>& poses) {
+  static std::vector<double> xs(const std::vector<std::optional<WorldFromCamera>>& poses) {
     std::vector<double> result;
     for (const auto& pose : poses) result.push_back(pose ? pose->translation.x() : -1);
     return result;

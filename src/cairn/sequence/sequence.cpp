@@ -147,7 +147,7 @@ void move_truth_to_camera(Sequence& sequence) {
   else
     return;
   for (StampedPose& pose : *sequence.truth)
-    pose.world_from_camera = pose.world_from_camera * given_from_camera;
+    pose.world_from_camera = WorldFromCamera(pose.world_from_camera * given_from_camera);
 }
 
 Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {

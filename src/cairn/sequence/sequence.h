@@ -74,9 +74,9 @@ struct SequenceOptions {
 /// FrameLoader gives. TUM files are associated by time (nearest, at most `max_gap_s`); a file whose first
 /// column holds whole numbers belongs to the frames of these numbers, except in a TUM sequence, which has
 /// none. InputError where no frame gets a pose.
-[[nodiscard]] std::vector<std::optional<Rigid3>> poses_of_frames(const Sequence& sequence,
-                                                                 const std::filesystem::path& path,
-                                                                 double max_gap_s = 0.02);
+[[nodiscard]] std::vector<std::optional<WorldFromCamera>> poses_of_frames(const Sequence& sequence,
+                                                                          const std::filesystem::path& path,
+                                                                          double max_gap_s = 0.02);
 
 /// One decoded frame.
 struct Frame {

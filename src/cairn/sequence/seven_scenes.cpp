@@ -68,7 +68,7 @@ std::optional<Eigen::Matrix4d> read_matrix(const TextFile& file) {
 
 /// Nothing for the matrix of NaN, infinities or zeros by which the recording says that tracking was lost
 /// there.
-std::optional<Rigid3> read_pose(const fs::path& path) {
+std::optional<WorldFromCamera> read_pose(const fs::path& path) {
   const TextFile file(path);
   const auto matrix = read_matrix(file);
   if (!matrix) return std::nullopt;
@@ -86,7 +86,7 @@ std::optional<Rigid3> read_pose(const fs::path& path) {
     file.fail(file.lines()[3], "a last row 0 0 0 1", "another",
               "Check that the matrix is written by rows, the translation in the last column.");
   }
-  return Rigid3{Eigen::Quaterniond(rotation).normalized(), matrix->topRightCorner<3, 1>()};
+  return WorldFromCamera({Eigen::Quaterniond(rotation).normalized(), matrix->topRightCorner<3, 1>()});
 }
 
 struct FoundFiles {

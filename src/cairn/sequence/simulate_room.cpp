@@ -104,7 +104,7 @@ std::int64_t SimulatedRoom::stamp_ns(int frame) const {
   return std::llround(frame * 1e9 / options_.rate_hz);
 }
 
-Rigid3 SimulatedRoom::world_from_camera(int frame) const {
+WorldFromCamera SimulatedRoom::world_from_camera(int frame) const {
   require(frame >= 0 && frame < size(), "a frame of the sequence");
   return path_.world_from_camera(frame * share_per_frame_);
 }

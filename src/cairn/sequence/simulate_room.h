@@ -58,7 +58,7 @@ class SimulatedRoom {
   [[nodiscard]] const Camera& camera() const { return options_.camera; }
   [[nodiscard]] Calibration calibration() const;
   [[nodiscard]] std::int64_t stamp_ns(int frame) const;
-  [[nodiscard]] Rigid3 world_from_camera(int frame) const;
+  [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
   /// Safe to call from several threads.
   [[nodiscard]] SimulatedRgbdFrame render(int frame) const;

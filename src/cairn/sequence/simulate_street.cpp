@@ -112,9 +112,9 @@ Rigid3 SimulatedStreet::street_from_camera(int frame) const {
   return pose;
 }
 
-Rigid3 SimulatedStreet::world_from_camera(int frame) const {
+WorldFromCamera SimulatedStreet::world_from_camera(int frame) const {
   require(frame >= 0 && frame < size(), "a frame of the sequence");
-  return street_from_camera(0).inverse() * street_from_camera(frame);
+  return WorldFromCamera(street_from_camera(0).inverse() * street_from_camera(frame));
 }
 
 Trajectory SimulatedStreet::truth() const {

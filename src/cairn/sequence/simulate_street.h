@@ -54,7 +54,7 @@ class SimulatedStreet {
   [[nodiscard]] Calibration calibration() const;
   [[nodiscard]] std::int64_t stamp_ns(int frame) const;
   /// Of the left camera; the right one is `baseline` along its x axis.
-  [[nodiscard]] Rigid3 world_from_camera(int frame) const;
+  [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
   /// Safe to call from several threads.
   [[nodiscard]] SimulatedStereoFrame render(int frame) const;

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "cairn/core/text.h"
-#include "cairn/geometry/rigid3.h"
+#include "cairn/geometry/framed.h"
 
 namespace cairn {
 
 struct StampedPose {
   std::int64_t stamp_ns = 0;
-  Rigid3 world_from_camera;
+  WorldFromCamera world_from_camera;
 };
 
 /// Poses in strictly increasing order of time.

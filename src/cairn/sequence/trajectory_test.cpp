@@ -35,7 +35,7 @@ TEST_F(TrajectoryTest, round_trip) {
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
     const Eigen::Vector3d place(random.normal(), 1e4 * random.normal(), random.normal());
-    written.push_back({1'305'031'453'359'684'123 + i, {rotation_exp(axis), place}});
+    written.push_back({1'305'031'453'359'684'123 + i, WorldFromCamera({rotation_exp(axis), place})});
   }
   const Trajectory read = read_tum_trajectory(write("poses.txt", format_tum_trajectory(written)));
   ASSERT_EQ(read.size(), written.size());

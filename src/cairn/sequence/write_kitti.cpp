@@ -95,7 +95,8 @@ RectifiedReport write_rectified(const Sequence& sequence, const fs::path& folder
     return write_pair(folder, i, frame.gray, frame.right);
   });
   report.stopped = report.frames < count;
-  const auto poses = sequence.truth ? poses_of_frames(sequence, {}) : std::vector<std::optional<Rigid3>>();
+  const auto poses =
+      sequence.truth ? poses_of_frames(sequence, {}) : std::vector<std::optional<WorldFromCamera>>();
   std::string times;
   Trajectory truth;
   for (std::size_t i = 0; i < static_cast<std::size_t>(report.frames); ++i) {
