@@ -68,22 +68,15 @@ nlohmann::ordered_json to_json(const TimeSummary& time) {
 }
 
 /// Poses of the keyframes' frames; nothing for all others.
-<<<<<<< HEAD
-std::vector<std::optional<Rigid3>> keyframe_poses(const Sequence& sequence,
-                                                  const SlamResult& result) {
-  std::vector<std::optional<Rigid3>> poses(sequence.frames.size());
+std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& sequence,
+                                                           const SlamResult& result) {
+  std::vector<std::optional<WorldFromCamera>> poses(sequence.frames.size());
   const std::int32_t part = result.main_part();
   for (const Keyframe& keyframe : result.map.keyframes()) {
     if (!keyframe.erased && keyframe.part == part)
-      poses[static_cast<std::size_t>(keyframe.observed.frame.value)] = keyframe.world_from_camera;
+      poses[static_cast<std::size_t>(keyframe.observed.frame.value)] =
+          WorldFromCamera(keyframe.world_from_camera);
   }
-=======
-std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& sequence, const KeyframeMap& map) {
-  std::vector<std::optional<WorldFromCamera>> poses(sequence.frames.size());
-  for (const Keyframe& keyframe : map.keyframes)
-    poses[static_cast<std::size_t>(keyframe.observed.frame.value)] =
-        WorldFromCamera(keyframe.world_from_camera);
->>>>>>> typed
   return poses;
 }
 

@@ -86,18 +86,11 @@ void write_map(const std::filesystem::path& folder, const Map& map) {
     throw InputError(
         {folder.string(), 0, "to make the folder", error.message(), "Check the path and the disk."});
   Trajectory poses;
-<<<<<<< HEAD:src/cairn/map/map_file.cpp
   for (const KeyframeId id : map.keyframe_ids()) {
     const Keyframe& keyframe = map[id];
-    poses.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
+    poses.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
     const std::string name = fmt::format("{:06}.{}", keyframe.observed.frame.value, lower(map.descriptor()));
     write_file(folder / "frames" / name, format_frame_file(keyframe));
-=======
-  for (const Keyframe& keyframe : map.keyframes) {
-    poses.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
-    const std::string name = fmt::format("{:06}.{}", keyframe.observed.frame.value, lower(map.descriptor));
-    write_file(folder / "frames" / name, format_frame_file(keyframe.observed));
->>>>>>> typed:src/cairn/map/keyframe_map_file.cpp
   }
   write_file(folder / "poses.txt", format_tum_trajectory(poses));
   write_file(folder / "map.json", format_map_json(map));

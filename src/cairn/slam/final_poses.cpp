@@ -33,7 +33,7 @@ void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const R
   const Rigid3 start = (world_from_reference * track.reference_from_frame).inverse();
   PoseOnlyOptions solver;
   solver.begin_with_all = true;
-  const PoseOnlyResult pose = refine_pose(map.rig(), points, observations, start, solver);
+  const PoseOnlyResult pose = refine_pose(map.rig(), points, observations, CameraFromWorld(start), solver);
   const auto inliers = static_cast<int>(pose.inliers.size());
   if (!pose.solved || inliers < options.min_inliers || 2 * inliers < track.inliers) return;
   track.reference_from_frame = world_from_reference.inverse() * pose.camera_from_world.inverse();

@@ -61,16 +61,25 @@ bool is_strained(const PoseGraphReport& report, std::size_t edges) {
 
 }  // namespace
 
-LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map& map)
-    : options_(options), executor_(executor), map_(map) {}
+LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map& map,
+                       const PlaceIndex& places)
+    : options_(options), executor_(executor), map_(map), places_(places) {}
 
 std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
+  std::vector<KeyframeId> near = {keyframe};
+  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared)) near.push_back(view.keyframe);
+  const auto contains = [](const std::vector<KeyframeId>& ids, KeyframeId id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+  };
   std::vector<KeyframeId> ids =
       candidate_keyframes(map_, keyframe, options_.nearby_loops, options_.random_loops, options_.seed,
                           static_cast<std::uint64_t>(keyframe.value));
-  std::vector<KeyframeId> near;
-  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared)) near.push_back(view.keyframe);
-  std::erase_if(ids, [&](KeyframeId id) { return std::find(near.begin(), near.end(), id) != near.end(); });
+  std::erase_if(ids, [&](KeyframeId id) { return contains(near, id); });
+  const auto places = places_.query(map_[keyframe].observed.features.descriptors,
+                                    static_cast<std::size_t>(options_.place_loops),
+                                    [&](std::int32_t id) { return !contains(near, {id}); });
+  for (const PlaceCandidate& place : places)
+    if (!contains(ids, {place.id})) ids.push_back({place.id});
   return ids;
 }
 

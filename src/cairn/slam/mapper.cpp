@@ -35,8 +35,14 @@ struct Mapper::Adjustment {
   }
 };
 
-Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, StageTimes& times)
-    : options_(options), executor_(executor), map_(map), times_(times), closer_(options, executor, map) {}
+Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, PlaceIndex& places,
+               StageTimes& times)
+    : options_(options),
+      executor_(executor),
+      map_(map),
+      places_(places),
+      times_(times),
+      closer_(options, executor, map, places) {}
 
 Mapper::~Mapper() = default;
 
@@ -48,6 +54,7 @@ std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
   const KeyframeId id = map_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
   parent_from_new_.emplace_back();
   (void)add_landmarks_by_depth(map_, id);
+  places_.add(id.value, map_[id].observed.features.descriptors);
   return id;
 }
 
@@ -62,7 +69,8 @@ KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, 
   times_.mapping.push_back(watch.lap());
   if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(id);
   times_.loops.push_back(watch.lap());
-  (void)erase_redundant(map_, id, options_.mapping);
+  places_.add(id.value, map_[id].observed.features.descriptors);
+  for (const KeyframeId erased : erase_redundant(map_, id, options_.mapping)) places_.remove(erased.value);
   start_adjustment(id);
   return id;
 }

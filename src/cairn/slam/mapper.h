@@ -18,7 +18,8 @@ namespace cairn {
 /// number of frames after its start, or before the next keyframe, so that the map does not depend on timing.
 class Mapper {
  public:
-  Mapper(const SlamOptions& options, const Executor& executor, Map& map, StageTimes& times);
+  Mapper(const SlamOptions& options, const Executor& executor, Map& map, PlaceIndex& places,
+         StageTimes& times);
   ~Mapper();
 
   /// The first keyframe of a part, where the frame has enough depth and none fitted for lost_frames.
@@ -44,6 +45,7 @@ class Mapper {
   const SlamOptions& options_;
   const Executor& executor_;
   Map& map_;
+  PlaceIndex& places_;
   StageTimes& times_;
   LoopCloser closer_;
   std::unique_ptr<Adjustment> adjustment_;

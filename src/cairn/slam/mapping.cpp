@@ -138,13 +138,13 @@ int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options
   return erased;
 }
 
-int erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options) {
-  int erased = 0;
+std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options) {
+  std::vector<KeyframeId> erased;
   for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
     const bool is_first = !map[view.keyframe].parent.valid();
     if (is_first || !is_redundant(map, view.keyframe, options.redundant_share)) continue;
     map.erase(view.keyframe);
-    ++erased;
+    erased.push_back(view.keyframe);
   }
   return erased;
 }

@@ -25,7 +25,7 @@ int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& option
 int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options);
 
 /// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by three
-/// other keyframes at the same or a finer scale. Returns how many.
-int erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options);
+/// other keyframes at the same or a finer scale. Returns those erased.
+std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options);
 
 }  // namespace cairn

@@ -14,6 +14,10 @@ struct Attempt {
   bool ok = false;
 };
 
+void add_candidate(KeyframeId id, std::vector<KeyframeId>& candidates) {
+  if (std::find(candidates.begin(), candidates.end(), id) == candidates.end()) candidates.push_back(id);
+}
+
 Attempt attempt(const Map& map, KeyframeId keyframe, const ObservedFrame& observed,
                 const SlamOptions& options) {
   const auto points = points_of(map, keyframe);
@@ -44,13 +48,16 @@ std::vector<KeyframeId> candidate_keyframes(const Map& map, KeyframeId before, i
   return candidates;
 }
 
-std::optional<Relocalization> relocalize(const Map& map, const ObservedFrame& observed,
-                                         const SlamOptions& options, const Executor& executor) {
+std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& places,
+                                         const ObservedFrame& observed, const SlamOptions& options,
+                                         const Executor& executor) {
   const KeyframeId end{static_cast<std::int32_t>(map.keyframes().size())};
   const auto stream =
       0x100000000ULL + static_cast<std::uint64_t>(observed.frame.value);  // apart from the loop closer's
-  const auto candidates = candidate_keyframes(map, end, options.relocalization_keyframes, options.random_loops,
+  auto candidates = candidate_keyframes(map, end, options.relocalization_keyframes, options.random_loops,
                                               options.seed, stream);
+  for (const PlaceCandidate& place : places.query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
+    add_candidate({place.id}, candidates);
   const auto attempts = executor.map<Attempt>(
       candidates.size(), [&](std::size_t i) { return attempt(map, candidates[i], observed, options); });
   const auto best = std::max_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
+#include "cairn/features/place_index.h"
 #include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
@@ -19,7 +20,8 @@ struct Relocalization {
 /// Tries the keyframes that look most like the frame, the last relocalization_keyframes and random_loops
 /// others: matches descriptors, verifies by geometry (loop_min_inliers), takes the one with the most inliers
 /// and refines its pose in the map around it. Deterministic at any number of threads.
-[[nodiscard]] std::optional<Relocalization> relocalize(const Map& map, const ObservedFrame& observed,
+[[nodiscard]] std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& places,
+                                                       const ObservedFrame& observed,
                                                        const SlamOptions& options, const Executor& executor);
 
 /// `nearby` keyframes before `before` (itself excluded), nearest first, then `random` of all earlier ones,

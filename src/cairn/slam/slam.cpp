@@ -32,8 +32,8 @@ class Run {
       : options_(options),
         executor_(executor),
         result_(result),
-        tracker_(options, executor, result.map),
-        mapper_(options, executor, result.map, result.times) {}
+        tracker_(options, executor, result.map, places_),
+        mapper_(options, executor, result.map, places_, result.times) {}
 
   void take(ObservedFrame&& frame) {
     Stopwatch watch;
@@ -77,6 +77,7 @@ class Run {
   const SlamOptions& options_;
   const Executor& executor_;
   SlamResult& result_;
+  PlaceIndex places_;
   Tracker tracker_;
   Mapper mapper_;
   FrameMemory memory_;
@@ -98,8 +99,8 @@ Trajectory SlamResult::trajectory() const {
   const std::int32_t part = main_part();
   for (const FrameTrack& track : frames) {
     if (!track.tracked() || map.part_of(*track.reference) != part) continue;
-    trajectory.push_back(
-        {track.stamp_ns, map.world_from_camera(*track.reference) * track.reference_from_frame});
+    trajectory.push_back({track.stamp_ns, WorldFromCamera(map.world_from_camera(*track.reference) *
+                                                          track.reference_from_frame)});
   }
   return trajectory;
 }
@@ -109,7 +110,7 @@ Trajectory SlamResult::keyframe_trajectory() const {
   const std::int32_t part = main_part();
   for (const Keyframe& keyframe : map.keyframes()) {
     if (!keyframe.erased && keyframe.part == part)
-      trajectory.push_back({keyframe.observed.stamp_ns, keyframe.world_from_camera});
+      trajectory.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
   }
   return trajectory;
 }

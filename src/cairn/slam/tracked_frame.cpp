@@ -42,7 +42,7 @@ bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int mi
   }
   PoseOnlyOptions options;
   options.begin_with_all = true;
-  const PoseOnlyResult pose = refine_pose(view.rig, points, seen, view.camera_from_world, options);
+  const PoseOnlyResult pose = refine_pose(view.rig, points, seen, CameraFromWorld(view.camera_from_world), options);
   const int inliers = static_cast<int>(pose.inliers.size());
   if (!pose.solved || inliers < min_inliers) return false;
   tracked.world_from_camera = pose.camera_from_world.inverse();

@@ -24,8 +24,9 @@ std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& o
 
 }  // namespace
 
-Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Map& map)
-    : options_(options), executor_(executor), map_(map) {}
+Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Map& map,
+                 const PlaceIndex& places)
+    : options_(options), executor_(executor), map_(map), places_(places) {}
 
 SearchTargets Tracker::targets_of_last(const FrameView& view, double radius_px) const {
   SearchTargets targets;
@@ -84,7 +85,7 @@ std::optional<TrackedFrame> Tracker::match_reference(const ObservedFrame& frame,
 }
 
 std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, FrameTrack& track) {
-  auto found = relocalize(map_, frame, options_, executor_);
+  auto found = relocalize(map_, places_, frame, options_, executor_);
   if (!found) return std::nullopt;
   track.relocalized = lost_;
   reference_ = found->keyframe;

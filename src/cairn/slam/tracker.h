@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cairn/core/executor.h"
+#include "cairn/features/place_index.h"
 #include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
@@ -28,7 +29,7 @@ struct FrameTrack {
 /// matching without prediction, then to relocalisation. It reads the map and never writes it. Deterministic.
 class Tracker {
  public:
-  Tracker(const SlamOptions& options, const Executor& executor, const Map& map);
+  Tracker(const SlamOptions& options, const Executor& executor, const Map& map, const PlaceIndex& places);
 
   /// The pose of the next frame, which stays here as last(). Its decision is keyframe where one is due.
   FrameTrack track(ObservedFrame&& frame);
@@ -55,6 +56,7 @@ class Tracker {
   const SlamOptions& options_;
   const Executor& executor_;
   const Map& map_;
+  const PlaceIndex& places_;
   KeyframeId reference_;
   ObservedFrame observed_;
   TrackedFrame last_;
