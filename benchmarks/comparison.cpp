@@ -10,7 +10,7 @@ namespace cairn::bench {
 namespace {
 
 constexpr const char* kOurs = "/cairn";
-constexpr const char* kPeers = "/OpenCV";
+constexpr const char* kPeers = "/peer";
 
 /// Collects the medians and prints nothing meanwhile but a line per benchmark.
 class MedianReporter : public benchmark::BenchmarkReporter {
@@ -79,7 +79,7 @@ bool print_row(const QualityComparison& comparison) {
   std::string limit;
   if (comparison.at_least_share) {
     held = comparison.ours >= *comparison.at_least_share * comparison.peers;
-    limit = fmt::format("at least {:.0f} % of OpenCV's", 100 * *comparison.at_least_share);
+    limit = fmt::format("at least {:.0f} % of the peer's", 100 * *comparison.at_least_share);
   }
   if (comparison.at_most) {
     held = held && comparison.ours <= *comparison.at_most;
@@ -116,11 +116,11 @@ int run(const Comparisons& comparisons, int argc, char** argv) {
   benchmark::RunSpecifiedBenchmarks(&medians);
   int missed = 0;
   fmt::print(
-      "| work | threads | cairn, ms | OpenCV, ms | share | at most | held "
+      "| work | threads | cairn, ms | peer, ms | share | at most | held "
       "|\n|---|--:|--:|--:|--:|--:|---|\n");
   for (const TimedComparison& comparison : comparisons.timed)
     if (!print_row(comparison, medians)) ++missed;
-  fmt::print("\n| quality | cairn | OpenCV | limit | held |\n|---|--:|--:|---|---|\n");
+  fmt::print("\n| quality | cairn | peer | limit | held |\n|---|--:|--:|---|---|\n");
   for (const QualityComparison& comparison : comparisons.quality)
     if (!print_row(comparison)) ++missed;
   return missed;

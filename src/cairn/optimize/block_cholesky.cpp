@@ -78,11 +78,12 @@ class SparseCholesky : public BlockCholesky {
 
 }  // namespace
 
+/// Measured on bands with and without closed loops, 10 to 600 columns: the two are even at a third of the
+/// blocks; below 20 columns neither takes a tenth of a millisecond.
 BlockCholeskyMethod choose_method(const BlockMatrix& pattern) {
-  constexpr std::size_t kSmall = 40;
-  constexpr std::size_t kFill = 4;
+  constexpr std::size_t kSmall = 20;
   const std::size_t all = pattern.columns() * (pattern.columns() + 1) / 2;
-  const bool dense = pattern.columns() <= kSmall || kFill * pattern.rows.size() > all;
+  const bool dense = pattern.columns() < kSmall || 3 * pattern.rows.size() > all;
   return dense ? BlockCholeskyMethod::dense : BlockCholeskyMethod::sparse;
 }
 

@@ -11,6 +11,13 @@ namespace {
 
 constexpr std::size_t kPointGrain = 64;  // points of a chunk: tens of microseconds
 
+/// [p]x M, without the products with the zeros of [p]x.
+Eigen::Matrix3d cross_times(const Eigen::Vector3d& p, const Eigen::Matrix3d& m) {
+  Eigen::Matrix3d product;
+  for (Eigen::Index c = 0; c < 3; ++c) product.col(c) = p.cross(m.col(c));
+  return product;
+}
+
 /// Subtracts a b^T. One column after the other, so that `a` stays in registers.
 void subtract_product(const Eigen::Matrix<double, 6, 3>& a, const Eigen::Matrix<double, 6, 3>& b,
                       Matrix6d& block) {
@@ -100,7 +107,7 @@ PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& st
     const Eigen::Matrix3d turned = sums.add(expansion, pose.rotation);
     if (!is_link) continue;
     links_[link] = {in_camera, expansion.gradient(), expansion.hessian()};
-    link_blocks_[link] << skew(in_camera) * turned, turned;
+    link_blocks_[link] << cross_times(in_camera, turned), turned;
   }
   return sums;
 }
@@ -120,9 +127,8 @@ void BundleEquations::drop_terms(std::size_t point) {
 
 /// Adds U and g of a link, the former below the diagonal only.
 void BundleEquations::add_link(const Link& link, Matrix6d& hessian, Vector6d& gradient) {
-  const Eigen::Matrix3d cross = skew(link.point_in_camera);
-  const Eigen::Matrix3d turned = link.hessian * cross.transpose();
-  hessian.topLeftCorner<3, 3>().noalias() += cross * turned;
+  const Eigen::Matrix3d turned = cross_times(link.point_in_camera, link.hessian).transpose();
+  hessian.topLeftCorner<3, 3>() += cross_times(link.point_in_camera, turned);
   hessian.bottomLeftCorner<3, 3>() += turned;
   hessian.bottomRightCorner<3, 3>() += link.hessian;
   gradient.head<3>() += link.point_in_camera.cross(link.gradient);
