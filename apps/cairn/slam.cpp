@@ -87,8 +87,9 @@ int run_slam(int argc, char** argv) {
 
   const Stopwatch watch;
   SlamParameters parameters = gather_parameters(arguments);
-  const SlamOutputs wanted{!arguments.no_cloud, !arguments.no_octree};
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
+  const bool has_depth = sequence.calibration.depth.has_value();  // stereo has none to fuse
+  const SlamOutputs wanted{has_depth && !arguments.no_cloud, has_depth && !arguments.no_octree};
   OutputFolder folder(arguments.output, "run");
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);

@@ -29,17 +29,20 @@ double peak_memory_mb() {
 }
 
 struct FrameCounts {
-  std::int64_t frames = 0, tracked = 0, relocalized = 0, too_far = 0, not_matched = 0;
+  std::int64_t frames = 0, tracked = 0, elsewhere = 0, relocalized = 0, too_far = 0, not_matched = 0;
   int median_inliers = 0;
 };
 
 FrameCounts count_frames(const SlamResult& result) {
   FrameCounts counts;
   std::vector<int> inliers;
+  const std::int32_t main_part = result.main_part();
   for (const FrameTrack& track : result.frames) {
     ++counts.frames;
     counts.relocalized += track.relocalized ? 1 : 0;
-    counts.tracked += track.tracked() ? 1 : 0;
+    const bool in_main = track.tracked() && result.map.part_of(*track.reference) == main_part;
+    counts.tracked += in_main ? 1 : 0;
+    counts.elsewhere += track.tracked() && !in_main ? 1 : 0;
     counts.too_far += track.decision == KeyframeDecision::too_far ? 1 : 0;
     counts.not_matched += track.decision == KeyframeDecision::not_matched ? 1 : 0;
     if (track.tracked()) inliers.push_back(track.inliers);
@@ -82,8 +85,9 @@ std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& seque
 
 CameraPath path_of(const SlamResult& result) {
   CameraPath path;
+  const std::int32_t part = result.main_part();
   for (const FrameTrack& track : result.frames) {
-    if (!track.tracked()) continue;
+    if (!track.tracked() || result.map.part_of(*track.reference) != part) continue;
     const Keyframe& reference = result.map[*track.reference];
     const bool is_keyframe = track.frame == reference.observed.frame && !reference.erased;
     if (is_keyframe) path.keyframes.push_back(path.world_from_camera.size());
@@ -94,11 +98,12 @@ CameraPath path_of(const SlamResult& result) {
 
 /// One row per frame: what became of it.
 std::string format_frames_csv(const SlamResult& result) {
-  std::string text = "frame,stamp_s,outcome,relocalized,reference_keyframe,matches,inliers\n";
+  std::string text = "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n";
   for (const FrameTrack& track : result.frames) {
-    text += fmt::format("{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
-                        to_string(track.decision), track.relocalized ? 1 : 0,
-                        track.reference ? fmt::format("{}", track.reference->value) : "", track.matches,
+    const std::string part = track.reference ? fmt::format("{}", result.map.part_of(*track.reference)) : "";
+    const std::string reference = track.reference ? fmt::format("{}", track.reference->value) : "";
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
+                        to_string(track.decision), track.relocalized ? 1 : 0, part, reference, track.matches,
                         track.inliers);
   }
   return text;
@@ -167,7 +172,8 @@ std::string format_run_json(const Sequence& sequence, const SlamResult& result,
       {"total", sequence.frames.size()},   {"processed", counts.frames},
       {"tracked", counts.tracked},         {"tracked_percent", share(counts.tracked, counts.frames)},
       {"too_far", counts.too_far},         {"not_matched", counts.not_matched},
-      {"relocalized", counts.relocalized}, {"unreadable", result.unreadable}};
+      {"relocalized", counts.relocalized}, {"elsewhere", counts.elsewhere},
+      {"unreadable", result.unreadable}};
   json["stopped"] = result.stopped;
   json["median_inliers"] = counts.median_inliers;
   json["keyframes"] = result.map.keyframe_ids().size();
@@ -197,6 +203,9 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
     fmt::print("lost         {} not matched, {} too far, found again {} times\n", counts.not_matched,
                counts.too_far, counts.relocalized);
   }
+  if (counts.elsewhere > 0)
+    fmt::print("elsewhere    {} frames in a part of the map that was never joined with this one\n",
+               counts.elsewhere);
   if (!result.unreadable.empty()) fmt::print("unreadable   {} frames, skipped\n", result.unreadable.size());
   if (result.stopped)
     fmt::print("stopped      after {} of {} frames; the outputs hold what was done\n", counts.frames,
@@ -204,8 +213,9 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
   fmt::print("keyframes    {}\n", result.map.keyframe_ids().size());
   const LoopReport& loops = result.loops;
   fmt::print("landmarks    {}\n", result.map.landmark_ids().size());
-  fmt::print("loops        {} closed, {} joined, {} rejected, of {} tried\n", loops.closed, loops.joined,
-             loops.rejected, loops.tried);
+  fmt::print("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
+             loops.closed, loops.joined, loops.rejected, loops.tried);
+  if (loops.parts_joined > 0) fmt::print("parts        {} joined\n", loops.parts_joined);
   if (summary.ate_m) {
     fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",
                100 * *summary.ate_m, summary.ate_pairs);

@@ -25,11 +25,20 @@ std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int m
   return views;
 }
 
-std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes) {
+bool is_on_trial_or_confirmed(const Map& map, LandmarkId landmark, int trial_keyframes) {
+  const std::vector<Sighting>& sightings = map[landmark].sightings;
+  if (sightings.size() != 1) return !sightings.empty();
+  const auto newest = static_cast<std::int32_t>(map.keyframes().size()) - 1;
+  return newest - sightings.front().keyframe.value <= trial_keyframes;
+}
+
+std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes,
+                                     int trial_keyframes) {
   std::vector<LandmarkId> landmarks;
   for (const KeyframeId id : keyframes) {
     for (const LandmarkId landmark : map[id].landmarks)
-      if (landmark.valid()) landmarks.push_back(landmark);
+      if (landmark.valid() && is_on_trial_or_confirmed(map, landmark, trial_keyframes))
+        landmarks.push_back(landmark);
   }
   std::sort(landmarks.begin(), landmarks.end());
   landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());

@@ -21,8 +21,13 @@ struct SharedView {
 /// Keyframes that share at least `min_shared` landmarks with this one, most first; itself not.
 [[nodiscard]] std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared);
 
-/// The landmarks that these keyframes show, each once, increasing.
-[[nodiscard]] std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes);
+/// Whether a landmark is worth looking for: several keyframes show it, or the one that does is among the last
+/// `trial_keyframes` + 1 of the map.
+[[nodiscard]] bool is_on_trial_or_confirmed(const Map& map, LandmarkId landmark, int trial_keyframes);
+
+/// The landmarks that these keyframes show and that are worth looking for, each once, increasing.
+[[nodiscard]] std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId> keyframes,
+                                                   int trial_keyframes);
 
 /// The neighbourhood of a view that shows `landmarks`: the `count` keyframes that show most of them, and each
 /// of their `neighbours` nearest in shared landmarks. Increasing.

@@ -65,7 +65,6 @@ KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, 
   const KeyframeId id = add_keyframe(map_, frame, tracked, parent, map_.part_of(parent));
   (void)add_landmarks_by_depth(map_, id);
   (void)join_with_neighbours(map_, id, options_);
-  (void)erase_unconfirmed(map_, id, options_.mapping);
   times_.mapping.push_back(watch.lap());
   if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(id);
   times_.loops.push_back(watch.lap());

@@ -110,7 +110,7 @@ int join_with_neighbours(Map& map, KeyframeId id, const SlamOptions& options) {
   int joined = 0;
   for (const KeyframeId neighbour : neighbours)
     joined += join_into(map, std::vector<LandmarkId>(map[id].landmarks), neighbour, options);
-  return joined + join_into(map, landmarks_of(map, neighbours), id, options);
+  return joined + join_into(map, landmarks_of(map, neighbours, options.mapping.trial_keyframes), id, options);
 }
 
 int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options) {
@@ -120,18 +120,16 @@ int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& option
   around_b.push_back(b);
   int joined = 0;
   for (const KeyframeId keyframe : around_b)
-    joined += join_into(map, landmarks_of(map, around_a), keyframe, options);
+    joined += join_into(map, landmarks_of(map, around_a, options.mapping.trial_keyframes), keyframe, options);
   for (const KeyframeId keyframe : around_a)
-    joined += join_into(map, landmarks_of(map, around_b), keyframe, options);
+    joined += join_into(map, landmarks_of(map, around_b, options.mapping.trial_keyframes), keyframe, options);
   return joined;
 }
 
-int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options) {
-  const KeyframeId made{newest.value - options.trial_keyframes};
-  if (!made.valid() || map[made].erased) return 0;
+int erase_unconfirmed(Map& map) {
   int erased = 0;
-  for (const LandmarkId id : std::vector<LandmarkId>(map[made].landmarks)) {
-    if (!id.valid() || map[id].sightings.size() > 1) continue;
+  for (const LandmarkId id : map.landmark_ids()) {
+    if (map[id].sightings.size() > 1) continue;
     map.erase(id);
     ++erased;
   }

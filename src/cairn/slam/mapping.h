@@ -21,8 +21,8 @@ int join_with_neighbours(Map& map, KeyframeId keyframe, const SlamOptions& optio
 /// The same between two keyframes that see one place, each with its neighbours.
 int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options);
 
-/// Erases landmarks that were made trial_keyframes before `newest` and are seen by one keyframe only.
-int erase_unconfirmed(Map& map, KeyframeId newest, const MappingOptions& options);
+/// Erases the landmarks that one keyframe only shows. Returns how many.
+int erase_unconfirmed(Map& map);
 
 /// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by three
 /// other keyframes at the same or a finer scale. Returns those erased.

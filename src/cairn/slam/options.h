@@ -23,10 +23,10 @@ struct DepthNoise {
 /// How the left-right matches of a stereo sequence become disparities.
 struct StereoNoise {
   double min_depth = 0.5;       ///< metres: with the baseline, the largest disparity looked for
-  double min_disparity_sigmas = 5.0;  ///< a disparity of fewer standard deviations says nothing of the depth
+  double min_disparity_sigmas = 4.0;  ///< a disparity of fewer standard deviations says nothing of the depth
   /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
   /// disparities of an image alike, which many features do not average out.
-  double sigma_floor_px = 0.3;
+  double sigma_floor_px = 0.5;
 };
 
 /// Looking for what the map holds in the next frame.
@@ -41,7 +41,7 @@ struct TrackingOptions {
 struct MappingOptions {
   /// Radians, plus the way over the median depth: a keyframe is due when the view has changed by as much.
   double view_change = 0.05;
-  int trial_keyframes = 3;     ///< a landmark must be seen again within so many, or it is erased
+  int trial_keyframes = 3;     ///< a landmark must be seen again within so many, or it is given up
   int window_keyframes = 12;   ///< that are adjusted together after each new one
   int window_fixed = 20;       ///< others that see the same landmarks and hold them in place
   int window_lag = 3;          ///< frames: the adjustment runs beside tracking and is taken over after so many
@@ -51,7 +51,7 @@ struct MappingOptions {
 /// SLAM with an RGB-D or stereo camera. The names of the older parameters are those of the files that RGB-D
 /// SLAM programs have long read.
 struct SlamOptions {
-  FeatureOptions features;
+  FeatureOptions features{.count = 1500};  ///< room for the views that show little
   DepthNoise depth_noise;
   StereoNoise stereo_noise;
   TrackingOptions tracking;

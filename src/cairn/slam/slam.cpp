@@ -12,6 +12,7 @@
 #include "cairn/slam/final_poses.h"
 #include "cairn/slam/frontend.h"
 #include "cairn/slam/mapper.h"
+#include "cairn/slam/mapping.h"
 
 namespace cairn {
 namespace {
@@ -52,6 +53,7 @@ class Run {
   void finish() {
     mapper_.finish();
     if (!options_.odometry) memory_.refine(result_.map, options_, executor_, result_.frames);
+    (void)erase_unconfirmed(result_.map);
     result_.loops = mapper_.loops();
     mapper_.fill_graphs(result_.graph_before, result_.graph_after);
   }

@@ -21,12 +21,13 @@ std::vector<FoundPoint> points_seen(const Map& map, const TrackedFrame& tracked)
 }
 
 std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tracked,
-                                         const TrackingOptions& options) {
-  const auto keyframes = local_keyframes(map, tracked.landmarks, static_cast<std::size_t>(options.local_keyframes),
-                                         static_cast<std::size_t>(options.local_neighbours));
+                                         const SlamOptions& options) {
+  const auto keyframes = local_keyframes(map, tracked.landmarks,
+                                         static_cast<std::size_t>(options.tracking.local_keyframes),
+                                         static_cast<std::size_t>(options.tracking.local_neighbours));
   std::vector<LandmarkId> seen = tracked.landmarks;
   std::sort(seen.begin(), seen.end());
-  std::vector<LandmarkId> around = landmarks_of(map, keyframes);
+  std::vector<LandmarkId> around = landmarks_of(map, keyframes, options.mapping.trial_keyframes);
   std::erase_if(around, [&](LandmarkId id) { return std::binary_search(seen.begin(), seen.end(), id); });
   return around;
 }
@@ -72,7 +73,7 @@ TrackedFrame placed_by(const Map& map, KeyframeId reference, const Motion& motio
 bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
                    TrackedFrame& tracked) {
   const FrameView view{map.rig(), observed, tracked.world_from_camera.inverse()};
-  const auto around = landmarks_around(map, tracked, options.tracking);
+  const auto around = landmarks_around(map, tracked, options);
   const auto targets = landmark_targets(map, around, view, options.tracking.map_radius_px);
   const MatchOptions matching{descriptor_limit(observed.features.descriptors), 0, true};
   auto found = points_seen(map, tracked);

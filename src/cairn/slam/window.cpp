@@ -47,6 +47,16 @@ class WindowBuilder {
   Window window_;
 };
 
+/// The landmarks that no other keyframe shows move along.
+void move_with_its_own(KeyframeId id, const Rigid3& world_from_camera, Map& map) {
+  const Rigid3 new_from_old = world_from_camera * map[id].world_from_camera.inverse();
+  map.move(id, world_from_camera);
+  for (const LandmarkId landmark : map[id].landmarks) {
+    if (landmark.valid() && map[landmark].sightings.size() == 1)
+      map.move(landmark, new_from_old * map[landmark].point_in_world);
+  }
+}
+
 }  // namespace
 
 Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options) {
@@ -57,7 +67,7 @@ Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& 
     free.push_back(view.keyframe);
   }
   std::sort(free.begin(), free.end());
-  const auto landmarks = landmarks_of(map, free);
+  const auto landmarks = landmarks_of(map, free, options.trial_keyframes);
   std::vector<SharedView> around = keyframes_showing(map, landmarks);
   std::erase_if(around, [&](const SharedView& v) { return std::binary_search(free.begin(), free.end(), v.keyframe); });
   around.resize(std::min(around.size(), static_cast<std::size_t>(options.window_fixed)));
@@ -88,7 +98,7 @@ Window whole_part(const Map& map, std::int32_t part) {
 void take_over(const Window& window, const BundleReport& report, Map& map) {
   for (std::size_t c = 0; c < window.cameras.size(); ++c) {
     if (window.problem.camera_fixed[c] == 0)
-      map.move(window.cameras[c], window.problem.camera_from_world[c].inverse());
+      move_with_its_own(window.cameras[c], window.problem.camera_from_world[c].inverse(), map);
   }
   for (std::size_t p = 0; p < window.points.size(); ++p)
     if (!map[window.points[p]].erased()) map.move(window.points[p], window.problem.points_in_world[p]);
