@@ -14,7 +14,7 @@ namespace {
 struct SlamArguments {
   CommonOptions common;
   SequenceArguments sequence;
-  std::string output;
+  std::string output, map;
   bool odometry = false, no_cloud = false, no_octree = false;
 };
 
@@ -23,6 +23,8 @@ void declare(CLI::App& app, SlamArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
       ->type_name("RUN")
       ->required();
+  app.add_option("--map", arguments.map, "go on from the map of an earlier run: its folder, or the run's")
+      ->type_name("MAP");
   app.add_flag("--odometry", arguments.odometry, "track only: no loop closures, no pose graph");
   app.add_flag("--no-cloud", arguments.no_cloud, "write no coloured cloud");
   app.add_flag("--no-octree", arguments.no_octree, "write no octree");

@@ -76,7 +76,7 @@ std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& seque
   std::vector<std::optional<WorldFromCamera>> poses(sequence.frames.size());
   const std::int32_t part = result.main_part();
   for (const Keyframe& keyframe : result.map.keyframes()) {
-    if (!keyframe.erased && keyframe.part == part)
+    if (!keyframe.erased && keyframe.part == part && keyframe.observed.frame.valid())
       poses[static_cast<std::size_t>(keyframe.observed.frame.value)] =
           WorldFromCamera(keyframe.world_from_camera);
   }

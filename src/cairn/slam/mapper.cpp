@@ -42,7 +42,14 @@ Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, P
       map_(map),
       places_(places),
       times_(times),
-      closer_(options, executor, map, places) {}
+      closer_(options, executor, map, places) {
+  for (const Keyframe& keyframe : map.keyframes()) {
+    parts_ = std::max(parts_, keyframe.part + 1);
+    parent_from_new_.push_back(keyframe.parent.valid() ? map.world_from_camera(keyframe.parent).inverse() *
+                                                             map.world_from_camera(keyframe.id)
+                                                       : map.world_from_camera(keyframe.id));
+  }
+}
 
 Mapper::~Mapper() = default;
 
@@ -102,13 +109,21 @@ void Mapper::adjust_whole(std::int32_t part) {
     BundleOptions options;
     const BundleReport report = adjust_bundle(whole.problem, options, executor_);
     cairn::take_over(whole, report, map_);
+    if (round > 0) keep_covariances(whole, report);
   }
   times_.global.push_back(watch.seconds());
+}
+
+void Mapper::keep_covariances(const Window& whole, const BundleReport& report) {
+  const auto covariances = point_covariances(whole.problem, report.inlier, executor_);
+  for (std::size_t p = 0; p < covariances.size(); ++p)
+    covariances_[static_cast<std::size_t>(whole.points[p].value)] = covariances[p];
 }
 
 void Mapper::finish() {
   (void)take_over();
   if (options_.odometry) return;
+  covariances_.assign(map_.landmarks().size(), Eigen::Matrix3d::Zero());
   for (std::int32_t part = 0; part < parts_; ++part) adjust_whole(part);
 }
 
@@ -116,8 +131,9 @@ void Mapper::fill_graphs(PoseGraph& before, PoseGraph& after) const {
   std::vector<Rigid3> by_odometry(map_.keyframes().size());
   for (const Keyframe& keyframe : map_.keyframes()) {
     const auto k = static_cast<std::size_t>(keyframe.id.value);
+    by_odometry[k] = parent_from_new_[k];
     if (keyframe.parent.valid())
-      by_odometry[k] = by_odometry[static_cast<std::size_t>(keyframe.parent.value)] * parent_from_new_[k];
+      by_odometry[k] = by_odometry[static_cast<std::size_t>(keyframe.parent.value)] * by_odometry[k];
     before.vertices.push_back({keyframe.id.value, by_odometry[k]});
     after.vertices.push_back({keyframe.id.value, map_.world_from_camera(keyframe.id)});
     if (keyframe.parent.valid())

@@ -10,6 +10,7 @@
 #include "cairn/slam/loop_closer.h"
 #include "cairn/slam/stage_times.h"
 #include "cairn/slam/tracked_frame.h"
+#include "cairn/slam/window.h"
 
 namespace cairn {
 
@@ -34,6 +35,9 @@ class Mapper {
   void finish();
 
   [[nodiscard]] const LoopReport& loops() const { return closer_.report(); }
+  /// After finish: of each landmark's point in the world, square metres, the keyframes taken as exact; zeros
+  /// where unknown. None where the map was not adjusted.
+  [[nodiscard]] const std::vector<Eigen::Matrix3d>& covariances() const { return covariances_; }
   /// The keyframes joined by odometry and loops: placed by odometry alone, and as they are now.
   void fill_graphs(PoseGraph& before, PoseGraph& after) const;
 
@@ -41,6 +45,7 @@ class Mapper {
   struct Adjustment;
   void start_adjustment(KeyframeId keyframe);
   void adjust_whole(std::int32_t part);
+  void keep_covariances(const Window& whole, const BundleReport& report);
 
   const SlamOptions& options_;
   const Executor& executor_;
@@ -49,6 +54,7 @@ class Mapper {
   StageTimes& times_;
   LoopCloser closer_;
   std::unique_ptr<Adjustment> adjustment_;
+  std::vector<Eigen::Matrix3d> covariances_;
   std::vector<Rigid3> parent_from_new_;  // of each keyframe, when it was made
   std::int32_t parts_ = 0;
   int good_lost_frames_ = 0;

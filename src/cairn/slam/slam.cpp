@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -26,6 +27,23 @@ void require_depth(const Sequence& sequence) {
                     "Without either there is no scale; record with an RGB-D or a stereo camera."});
 }
 
+void require_same(const Map& start, const Rig& rig, const SlamOptions& options) {
+  const Rig& other = start.rig();
+  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6 * std::abs(b); };
+  if (differ(other.fx, rig.fx) || differ(other.fy, rig.fy) || differ(other.cx, rig.cx) ||
+      differ(other.cy, rig.cy) || differ(other.baseline, rig.baseline))
+    throw InputError({"the map", 0,
+                      fmt::format("the camera fx {} fy {} cx {} cy {} baseline {}", rig.fx, rig.fy, rig.cx,
+                                  rig.cy, rig.baseline),
+                      fmt::format("fx {} fy {} cx {} cy {} baseline {}", other.fx, other.fy, other.cx,
+                                  other.cy, other.baseline),
+                      "A map goes on with the camera that it was made with."});
+  if (start.descriptor() != options.features.descriptor)
+    throw InputError({"the map", 0, fmt::format("descriptors {}", options.features.descriptor),
+                      start.descriptor(),
+                      fmt::format("Run with --set detector={0} --set descriptor={0}.", start.descriptor())});
+}
+
 /// One run under way.
 class Run {
  public:
@@ -34,7 +52,10 @@ class Run {
         executor_(executor),
         result_(result),
         tracker_(options, executor, result.map, places_),
-        mapper_(options, executor, result.map, places_, result.times) {}
+        mapper_(options, executor, result.map, places_, result.times) {
+    for (const KeyframeId id : result.map.keyframe_ids())
+      places_.add(id.value, result.map[id].observed.features.descriptors);
+  }
 
   void take(ObservedFrame&& frame) {
     Stopwatch watch;
@@ -54,6 +75,7 @@ class Run {
     mapper_.finish();
     if (!options_.odometry) memory_.refine(result_.map, options_, executor_, result_.frames);
     (void)erase_unconfirmed(result_.map);
+    result_.covariances = mapper_.covariances();
     result_.loops = mapper_.loops();
     mapper_.fill_graphs(result_.graph_before, result_.graph_after);
   }
@@ -111,18 +133,21 @@ Trajectory SlamResult::keyframe_trajectory() const {
   Trajectory trajectory;
   const std::int32_t part = main_part();
   for (const Keyframe& keyframe : map.keyframes()) {
-    if (!keyframe.erased && keyframe.part == part)
+    const bool is_of_sequence = keyframe.observed.frame.valid();  // and not of the start map
+    if (!keyframe.erased && keyframe.part == part && is_of_sequence)
       trajectory.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
   }
   return trajectory;
 }
 
 SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const Executor& executor,
-                    Progress& progress) {
+                    Progress& progress, std::optional<Map> start) {
   options.validate();
   require_depth(sequence);
+  const Rig rig = rig_of(sequence.calibration, options.depth_noise);
   SlamResult result;
-  result.map = Map(rig_of(sequence.calibration, options.depth_noise), options.features.descriptor);
+  if (start) require_same(*start, rig, options);
+  result.map = start ? std::move(*start) : Map(rig, options.features.descriptor);
   Run run(options, executor, result);
   const Frontend frontend(sequence, options);
 

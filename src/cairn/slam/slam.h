@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct SlamResult {
   std::vector<FrameTrack> frames;       ///< one for each frame that was decoded, in order
   std::vector<std::string> unreadable;  ///< messages of frames that were skipped
   Map map;                              ///< after the last adjustment
+  std::vector<Eigen::Matrix3d> covariances;  ///< of its landmarks' points, see Mapper::covariances
   PoseGraph graph_before, graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
   StageTimes times;
@@ -36,7 +38,11 @@ struct SlamResult {
 /// SLAM with an RGB-D or stereo sequence: observe, track, map, close loops, adjust. A frame that cannot be
 /// decoded is reported and skipped. The same bits at any number of threads. InputError for a sequence without
 /// depth or right images and for options out of range.
+/// With a `start` map, of an earlier run, the camera is looked for in it, and the map goes on growing; its
+/// keyframes have no frame in this sequence (FrameId not valid). InputError where it was made with another
+/// camera or another kind of descriptor.
 [[nodiscard]] SlamResult run_slam(const Sequence& sequence, const SlamOptions& options,
-                                  const Executor& executor, Progress& progress);
+                                  const Executor& executor, Progress& progress,
+                                  std::optional<Map> start = std::nullopt);
 
 }  // namespace cairn
