@@ -62,7 +62,7 @@ std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) c
   return std::nullopt;
 }
 
-std::optional<TrackedFrame> Tracker::match_reference(const ObservedFrame& frame, FrameTrack& track) const {
+std::optional<TrackedFrame> Tracker::match_last(const ObservedFrame& frame, FrameTrack& track) const {
   const Rigid3 last_from_world = last_.world_from_camera.inverse();
   std::vector<Eigen::Vector3d> points = points_shown(map_, observed_, last_);
   for (Eigen::Vector3d& point : points) point = last_from_world * point;
@@ -81,6 +81,16 @@ std::optional<TrackedFrame> Tracker::match_reference(const ObservedFrame& frame,
   }
   current.matches = motion.matches;
   current.inliers = motion.inliers;
+  return current;
+}
+
+/// By the predicted motion; where that finds much less than the last frame showed, or nothing is known to
+/// predict by, also without: points far away agree with nearly any motion, and so with a wrong one.
+std::optional<TrackedFrame> Tracker::follow(const ObservedFrame& frame, FrameTrack& track) const {
+  std::optional<TrackedFrame> current = follow_motion(frame);
+  if (current && motion_known_ && 2 * current->inliers >= last_.inliers) return current;
+  std::optional<TrackedFrame> matched = match_last(frame, track);
+  if (matched && (!current || matched->inliers > current->inliers)) return matched;
   return current;
 }
 
@@ -110,6 +120,7 @@ void Tracker::refer_to_best(const TrackedFrame& current) {
 void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track) {
   current_from_last_ =
       lost_ ? Rigid3{} : current.world_from_camera.inverse() * last_.world_from_camera;
+  motion_known_ = !lost_;
   refer_to_best(current);
   track.decision = is_keyframe_due(frame, current) ? KeyframeDecision::keyframe : KeyframeDecision::too_close;
   track.matches = current.matches;
@@ -125,8 +136,7 @@ FrameTrack Tracker::track(ObservedFrame&& frame) {
   FrameTrack track{frame.frame, frame.stamp_ns, {}, false, std::nullopt, {}, 0, 0};
   std::optional<TrackedFrame> current;
   if (!lost_) {
-    current = follow_motion(frame);
-    if (!current) current = match_reference(frame, track);
+    current = follow(frame, track);
     if (current) (void)refine_in_map(map_, frame, options_, *current);
   }
   if (!current && !map_.keyframes().empty()) current = find_again(frame, track);
@@ -141,6 +151,7 @@ FrameTrack Tracker::track(ObservedFrame&& frame) {
 
 void Tracker::refer_to(KeyframeId keyframe) {
   reference_ = keyframe;
+  if (lost_) motion_known_ = false;
   lost_ = false;
   reference_from_last_ = {};
   follow_map();

@@ -46,7 +46,8 @@ class Tracker {
 
  private:
   [[nodiscard]] std::optional<TrackedFrame> follow_motion(const ObservedFrame& frame) const;
-  [[nodiscard]] std::optional<TrackedFrame> match_reference(const ObservedFrame& frame, FrameTrack& track) const;
+  [[nodiscard]] std::optional<TrackedFrame> match_last(const ObservedFrame& frame, FrameTrack& track) const;
+  [[nodiscard]] std::optional<TrackedFrame> follow(const ObservedFrame& frame, FrameTrack& track) const;
   [[nodiscard]] std::optional<TrackedFrame> find_again(const ObservedFrame& frame, FrameTrack& track);
   [[nodiscard]] SearchTargets targets_of_last(const FrameView& view, double radius_px) const;
   [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const;
@@ -62,6 +63,7 @@ class Tracker {
   TrackedFrame last_;
   Rigid3 reference_from_last_;
   Rigid3 current_from_last_;  // the last motion, with which the next one is predicted
+  bool motion_known_ = false;
   bool lost_ = true;
 };
 
