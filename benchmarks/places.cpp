@@ -14,8 +14,9 @@
 namespace cairn::bench {
 namespace {
 
-/// Keyframes as like each other and as different as a few images make them: each has half of the descriptors
-/// of one image and half of those of another, with twenty bits changed in every one.
+/// Keyframes of a long walk, twenty to a place: each has half of the descriptors of its place and half of
+/// those of any other, with twenty bits changed in every one. A place is an image with bits of its own
+/// flipped in all descriptors, which leaves their distances to each other as they are.
 class Keyframes {
  public:
   explicit Keyframes(const std::vector<ImagePair>& pairs) {
@@ -24,22 +25,35 @@ class Keyframes {
   }
 
   [[nodiscard]] Descriptors make(std::uint64_t number) const {
+    constexpr std::uint64_t kOfOnePlace = 20;
+    constexpr std::uint32_t kPlaces = 250;
     constexpr int kChangedBits = 20;
     Random random(1, number);
-    const Descriptors &one = any(random), &other = any(random);
-    Descriptors mixed = one;
+    Descriptors mixed = place(number / kOfOnePlace % kPlaces);
+    const Descriptors other = place(random.index(kPlaces));
     for (std::size_t i = 0; i < mixed.count(); ++i) {
-      const bool of_other = random.uniform() < 0.5 && i < other.count();
-      std::copy_n((of_other ? other : one).row(i), one.bytes(), mixed.row(i));
-      for (int k = 0; k < kChangedBits; ++k)
-        mixed.row(i)[random.index(32)] ^= static_cast<std::uint8_t>(1U << random.index(8));
+      if (random.uniform() < 0.5 && i < other.count()) std::copy_n(other.row(i), other.bytes(), mixed.row(i));
+      flip(mixed.row(i), mixed.bytes(), kChangedBits, random);
     }
     return mixed;
   }
 
  private:
-  [[nodiscard]] const Descriptors& any(Random& random) const {
-    return images_[random.index(static_cast<std::uint32_t>(images_.size()))];
+  static void flip(std::uint8_t* row, std::size_t bytes, int count, Random& random) {
+    for (int k = 0; k < count; ++k) {
+      const std::uint32_t bit = random.index(static_cast<std::uint32_t>(8 * bytes));
+      row[bit / 8] ^= static_cast<std::uint8_t>(1U << bit % 8);
+    }
+  }
+
+  [[nodiscard]] Descriptors place(std::uint64_t number) const {
+    constexpr int kFlippedBits = 100;
+    Descriptors shown = images_[number % images_.size()];
+    for (std::size_t i = 0; i < shown.count(); ++i) {
+      Random same_for_all(2, number);
+      flip(shown.row(i), shown.bytes(), kFlippedBits, same_for_all);
+    }
+    return shown;
   }
 
   std::vector<Descriptors> images_;
@@ -100,19 +114,24 @@ void add_places(Comparisons& comparisons, const Inputs& inputs) {
   const auto work = [&](std::int32_t count) {
     return fmt::format("places, {} ORB asked of {} keyframes", query->count(), count);
   };
-  comparisons.timed.push_back({work(kFew), 1, [=] { (void)few->get().query(*query, kCandidates); },
-                               query_by_opencv(*keyframes, kFew, *query), kAtMostShare, {}});
+  comparisons.timed.push_back({work(kFew),
+                               1,
+                               [=] { (void)few->get().query(*query, kCandidates); },
+                               query_by_opencv(*keyframes, kFew, *query),
+                               kAtMostShare,
+                               {}});
   comparisons.timed.push_back(
       {work(kMany), 1, [=] { (void)many->get().query(*query, kCandidates); }, {}, {}, kAtMostMs});
-  comparisons.timed.push_back({fmt::format("places, {} ORB added to {} keyframes and removed", query->count(), kMany),
-                               1,
-                               [=] {
-                                 many->get().add(kMany, *query);
-                                 many->get().remove(kMany);
-                               },
-                               {},
-                               {},
-                               kAtMostMs});
+  comparisons.timed.push_back(
+      {fmt::format("places, {} ORB added to {} keyframes and removed", query->count(), kMany),
+       1,
+       [=] {
+         many->get().add(kMany, *query);
+         many->get().remove(kMany);
+       },
+       {},
+       {},
+       kAtMostMs});
 }
 
 }  // namespace cairn::bench

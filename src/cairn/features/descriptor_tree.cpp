@@ -29,6 +29,12 @@ const DescriptorTreeOptions& validated(const DescriptorTreeOptions& options) {
   return options;
 }
 
+/// Of a child that is a leaf.
+std::size_t leaf_index(std::int32_t child) {
+  const std::int32_t index = ~child;
+  return static_cast<std::size_t>(index);
+}
+
 template <class T>
 void fetch_lines(const T* begin, std::size_t count) {
   for (std::size_t i = 0; i < count; i += kLineBytes / sizeof(T)) __builtin_prefetch(begin + i);
@@ -85,9 +91,12 @@ void DescriptorTree::fetch_branch(Child branch) const {
   fetch_lines(children_.data() + begin, fan_out_);
 }
 
-void DescriptorTree::fetch(const Leaf& leaf) const {
-  fetch_lines(leaf.rows.data(), leaf.rows.size());
-  fetch_lines(leaf.owners.data(), leaf.owners.size());
+void DescriptorTree::fetch_ahead(std::span<const Visit> visits, std::size_t at) const {
+  constexpr std::size_t kLeavesAhead = 8, kRowsAhead = 3;  // where the rows are has to be known before them
+  if (at + kLeavesAhead < visits.size()) __builtin_prefetch(&leaf(visits[at + kLeavesAhead].leaf));
+  if (at + kRowsAhead >= visits.size()) return;
+  const Leaf& soon = leaf(visits[at + kRowsAhead].leaf);
+  fetch_lines(soon.rows.data(), soon.rows.size());
 }
 
 void DescriptorTree::append(Leaf& leaf, const std::uint64_t* row, std::int32_t owner) {
@@ -106,7 +115,7 @@ void DescriptorTree::add(const Descriptors& descriptors, std::size_t i, std::int
     place = nearest_child(row, at, distances);
     at = children_[place];
   }
-  Leaf& leaf = leaves_[static_cast<std::size_t>(~at)];
+  Leaf& leaf = leaves_[leaf_index(at)];
   append(leaf, row, owner);
   if (leaf.owners.size() > leaf.capacity) cut(place);
 }
@@ -140,7 +149,7 @@ std::int32_t DescriptorTree::append_branch(const std::vector<std::uint64_t>& cen
 /// The leaf at `place` gives its rows to one leaf for each centre and leaves the place to a branch. Where all
 /// centres are alike there is nothing to cut, and the leaf may grow to twice the size.
 void DescriptorTree::cut(std::size_t place) {
-  const std::size_t index = place == kNowhere ? 0 : static_cast<std::size_t>(~children_[place]);
+  const std::size_t index = place == kNowhere ? 0 : leaf_index(children_[place]);
   const std::vector<std::uint64_t> centres = choose_centres(leaves_[index]);
   if (centres.size() < 2 * words_) {
     leaves_[index].capacity *= 2;
@@ -160,7 +169,7 @@ void DescriptorTree::cut(std::size_t place) {
   for (std::size_t i = 0; i < whole.owners.size(); ++i) {
     const std::uint64_t* row = whole.rows.data() + i * words_;
     const std::size_t child = nearest_child(row, branch, distances);
-    append(leaves_[static_cast<std::size_t>(~children_[child])], row, whole.owners[i]);
+    append(leaves_[leaf_index(children_[child])], row, whole.owners[i]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "cairn/core/random.h"
@@ -48,7 +49,9 @@ class DescriptorTree {
   /// A descriptor of a query and a leaf where rows like it may be.
   struct Visit {
     std::int32_t leaf, query;
-    auto operator<=>(const Visit&) const = default;
+    bool operator<(const Visit& other) const {
+      return leaf != other.leaf ? leaf < other.leaf : query < other.query;
+    }
   };
 
   /// For each of `queries`, which are of the tree's kind, as many as `most` leaves: the one of the nearest
@@ -66,8 +69,8 @@ class DescriptorTree {
     measure(queries.words() + i * words_, leaf.rows.data(), leaf.owners.size(), distances);
   }
 
-  /// Asks the memory for a leaf that will be measured soon.
-  void fetch(const Leaf& leaf) const;
+  /// Asks the memory for leaves that come soon after visit `at`, so that it need not be waited for.
+  void fetch_ahead(std::span<const Visit> visits, std::size_t at) const;
 
  private:
   /// A branch's index, or the complement of a leaf's.
@@ -76,7 +79,9 @@ class DescriptorTree {
   struct Detour {
     std::int64_t cost;
     Child child;
-    auto operator<=>(const Detour&) const = default;
+    bool operator<(const Detour& other) const {
+      return cost != other.cost ? cost < other.cost : child < other.child;
+    }
   };
 
   /// Where the search for the leaves of one row is.

@@ -62,7 +62,7 @@ std::vector<Vote> collect_votes(const DescriptorTree& tree, const Descriptors& d
   std::vector<Vote> votes;
   for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
     while (end < visits.size() && visits[end].leaf == visits[begin].leaf) ++end;
-    if (end < visits.size()) tree.fetch(tree.leaf(visits[end].leaf));
+    tree.fetch_ahead(visits, begin);
     voting.vote(std::span(visits).subspan(begin, end - begin), votes);
   }
   return votes;
