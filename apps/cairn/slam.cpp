@@ -81,7 +81,8 @@ int warn_if_never_followed(const SlamResult& result) {
 int run_slam(int argc, char** argv) {
   SlamArguments arguments;
   CLI::App app(
-      "SLAM: an RGB-D or stereo sequence without poses becomes a trajectory and a map; with depth images also a "
+      "SLAM: an RGB-D or stereo sequence without poses becomes a trajectory and a map; with depth images "
+      "also a "
       "coloured cloud and an octree.",
       "slam");
   declare(app, arguments);

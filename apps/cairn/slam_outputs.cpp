@@ -61,13 +61,15 @@ double share(std::int64_t part, std::int64_t whole) {
 
 /// The stages by their names, in the order of the data.
 std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times) {
-  return {{"decode", &times.decode}, {"features", &times.features}, {"tracking", &times.tracking},
-          {"mapping", &times.mapping}, {"loops", &times.loops}, {"window", &times.window},
+  return {{"decode", &times.decode},   {"features", &times.features}, {"tracking", &times.tracking},
+          {"mapping", &times.mapping}, {"loops", &times.loops},       {"window", &times.window},
           {"global", &times.global}};
 }
 
 nlohmann::ordered_json to_json(const TimeSummary& time) {
-  return {{"total_s", time.total}, {"median_ms", 1e3 * time.median}, {"percentile_95_ms", 1e3 * time.percentile_95}};
+  return {{"total_s", time.total},
+          {"median_ms", 1e3 * time.median},
+          {"percentile_95_ms", 1e3 * time.percentile_95}};
 }
 
 /// Poses of the keyframes' frames; nothing for all others.
@@ -117,8 +119,8 @@ void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, 
 
 }  // namespace
 
-void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
-                      const SlamResult& result, SlamParameters& parameters) {
+void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence, const SlamResult& result,
+                      SlamParameters& parameters) {
   write_file(folder / "trajectory.txt", format_tum_trajectory(result.trajectory()));
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
@@ -131,9 +133,8 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
 }
 
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
-                       const SlamResult& result, const SlamParameters& parameters,
-                       const SlamOutputs& wanted, const Executor& executor, Progress& progress,
-                       SlamSummary& summary) {
+                       const SlamResult& result, const SlamParameters& parameters, const SlamOutputs& wanted,
+                       const Executor& executor, Progress& progress, SlamSummary& summary) {
   if (!wanted.cloud && !wanted.octree) return;
   const Stopwatch watch;
   CloudBuilder cloud_builder(parameters.cloud);
@@ -162,8 +163,7 @@ void add_accuracy(const Sequence& sequence, const SlamResult& result, SlamSummar
   summary.ate_pairs = static_cast<std::int64_t>(evaluation.pairs.size());
 }
 
-std::string format_run_json(const Sequence& sequence, const SlamResult& result,
-                            const SlamSummary& summary) {
+std::string format_run_json(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary) {
   const FrameCounts counts = count_frames(result);
   nlohmann::ordered_json json;
   json["cairn"] = CAIRN_VERSION;
@@ -178,8 +178,9 @@ std::string format_run_json(const Sequence& sequence, const SlamResult& result,
   json["median_inliers"] = counts.median_inliers;
   json["keyframes"] = result.map.keyframe_ids().size();
   const LoopReport& loops = result.loops;
-  json["loops"] = {{"tried", loops.tried},   {"verified", loops.verified}, {"rejected", loops.rejected},
-                   {"joined", loops.joined}, {"closed", loops.closed},     {"parts_joined", loops.parts_joined}};
+  json["loops"] = {{"tried", loops.tried},       {"verified", loops.verified},
+                   {"rejected", loops.rejected}, {"joined", loops.joined},
+                   {"closed", loops.closed},     {"parts_joined", loops.parts_joined}};
   json["landmarks"] = result.map.landmark_ids().size();
   json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = summary.ate_m ? nlohmann::ordered_json(*summary.ate_m) : nullptr;
@@ -189,7 +190,8 @@ std::string format_run_json(const Sequence& sequence, const SlamResult& result,
   json["odometry"] = summary.odometry;
   json["threads"] = summary.threads;
   json["seconds"] = {{"total", summary.total_seconds}, {"fusion", summary.fusion_seconds}};
-  for (const auto& [name, seconds] : stages(result.times)) json["stages"][name] = to_json(summarize(*seconds));
+  for (const auto& [name, seconds] : stages(result.times))
+    json["stages"][name] = to_json(summarize(*seconds));
   json["peak_memory_mb"] = peak_memory_mb();
   return json.dump(2) + "\n";
 }

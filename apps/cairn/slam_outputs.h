@@ -33,13 +33,12 @@ struct SlamSummary {
 };
 
 /// Trajectories, graphs, the map, and the effective configuration and calibration.
-void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence,
-                      const SlamResult& result, SlamParameters& parameters);
+void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence, const SlamResult& result,
+                      SlamParameters& parameters);
 /// The coloured cloud and the octree from the optimised keyframes, and a picture of the cloud.
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
-                       const SlamResult& result, const SlamParameters& parameters,
-                       const SlamOutputs& wanted, const Executor& executor, Progress& progress,
-                       SlamSummary& summary);
+                       const SlamResult& result, const SlamParameters& parameters, const SlamOutputs& wanted,
+                       const Executor& executor, Progress& progress, SlamSummary& summary);
 /// run.json: the figures of the run, as `cairn slam --json` prints them.
 [[nodiscard]] std::string format_run_json(const Sequence& sequence, const SlamResult& result,
                                           const SlamSummary& summary);

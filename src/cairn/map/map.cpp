@@ -70,8 +70,7 @@ void Map::add_sighting(LandmarkId id, Sighting sighting) {
   LandmarkId& shown = keyframe(sighting.keyframe).landmarks.at(static_cast<std::size_t>(sighting.feature));
   require(!shown.valid(), "a feature shows one landmark");
   Landmark& seen = landmark(id);
-  require(find_sighting(seen, sighting.keyframe) == seen.sightings.end(),
-          "a keyframe shows a landmark once");
+  require(find_sighting(seen, sighting.keyframe) == seen.sightings.end(), "a keyframe shows a landmark once");
   shown = id;
   seen.sightings.insert(std::upper_bound(seen.sightings.begin(), seen.sightings.end(), sighting), sighting);
 }
@@ -119,6 +118,8 @@ void Map::move(LandmarkId id, const Eigen::Vector3d& point_in_world) {
   landmark(id).point_in_world = point_in_world;
 }
 
-void Map::set_part(KeyframeId id, std::int32_t part) { keyframe(id).part = part; }
+void Map::set_part(KeyframeId id, std::int32_t part) {
+  keyframe(id).part = part;
+}
 
 }  // namespace cairn

@@ -38,8 +38,8 @@ Matrix6d edge_information(const Map& map, KeyframeId keyframe) {
   // With these the loop edges of a real Kinect recording cost about as much as they have degrees of freedom.
   constexpr double kRotationStd = 0.004;  // radians: 2 px at 525 px focal length
   constexpr double kMinTranslationStd = 0.005;
-  return information_from_std(std::fmax(kMinTranslationStd, kRotationStd * median_depth(map[keyframe].observed)),
-                              kRotationStd);
+  return information_from_std(
+      std::fmax(kMinTranslationStd, kRotationStd * median_depth(map[keyframe].observed)), kRotationStd);
 }
 
 PoseGraph essential_graph(const Map& map, std::int32_t part, std::span<const PoseGraph::Edge> loops) {

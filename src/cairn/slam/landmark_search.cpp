@@ -8,9 +8,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kMinViewCosine = 0.5;      // 60 degrees: descriptors rarely survive more
-constexpr double kMaxDistanceRatio = 5.0;   // beyond, no pyramid level shows the same patch
-constexpr double kMaxSizeRatio = 1.5;       // of found to expected: two levels of ORB's pyramid
+constexpr double kMinViewCosine = 0.5;     // 60 degrees: descriptors rarely survive more
+constexpr double kMaxDistanceRatio = 5.0;  // beyond, no pyramid level shows the same patch
+constexpr double kMaxSizeRatio = 1.5;      // of found to expected: two levels of ORB's pyramid
 
 Descriptors gather(const std::vector<Appearance>& appearances) {
   if (appearances.empty()) return {};
@@ -52,9 +52,9 @@ Appearance nearest_appearance(const Map& map, const Landmark& landmark,
   const auto distance = [&](const Sighting& sighting) {
     return (map[sighting.keyframe].world_from_camera.translation - centre_in_world).squaredNorm();
   };
-  const auto nearest = std::min_element(
-      landmark.sightings.begin(), landmark.sightings.end(),
-      [&](const Sighting& a, const Sighting& b) { return distance(a) < distance(b); });
+  const auto nearest =
+      std::min_element(landmark.sightings.begin(), landmark.sightings.end(),
+                       [&](const Sighting& a, const Sighting& b) { return distance(a) < distance(b); });
   const Keyframe& keyframe = map[nearest->keyframe];
   const auto row = static_cast<std::size_t>(nearest->feature);
   const Features& features = keyframe.observed.features;
@@ -82,10 +82,11 @@ std::vector<FoundPoint> find_targets(const SearchTargets& targets, const FrameVi
                                      std::span<const LandmarkId> occupied, const MatchOptions& options) {
   std::vector<FoundPoint> found;
   if (targets.size() == 0) return found;
-  const auto matches = match_predicted(targets.places, gather(targets.appearances), view.observed.features,
-                                       options);
+  const auto matches =
+      match_predicted(targets.places, gather(targets.appearances), view.observed.features, options);
   for (const Match& match : matches) {
-    const auto target = static_cast<std::size_t>(match.query), feature = static_cast<std::size_t>(match.train);
+    const auto target = static_cast<std::size_t>(match.query),
+               feature = static_cast<std::size_t>(match.train);
     if (!occupied.empty() && occupied[feature].valid()) continue;
     found.push_back({match.train, targets.landmarks[target], targets.points_in_world[target]});
   }

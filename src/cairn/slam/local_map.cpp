@@ -9,7 +9,8 @@ std::vector<SharedView> keyframes_showing(const Map& map, std::span<const Landma
   std::vector<int> counts(map.keyframes().size(), 0);
   for (const LandmarkId id : landmarks) {
     if (!id.valid()) continue;
-    for (const Sighting& sighting : map[id].sightings) ++counts[static_cast<std::size_t>(sighting.keyframe.value)];
+    for (const Sighting& sighting : map[id].sightings)
+      ++counts[static_cast<std::size_t>(sighting.keyframe.value)];
   }
   std::vector<SharedView> views;
   for (std::size_t k = counts.size(); k-- > 0;)

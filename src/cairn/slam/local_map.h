@@ -16,7 +16,8 @@ struct SharedView {
 
 /// Keyframes that show any of the landmarks (invalid and erased ones are passed over), most first, of equal
 /// ones the later first.
-[[nodiscard]] std::vector<SharedView> keyframes_showing(const Map& map, std::span<const LandmarkId> landmarks);
+[[nodiscard]] std::vector<SharedView> keyframes_showing(const Map& map,
+                                                        std::span<const LandmarkId> landmarks);
 
 /// Keyframes that share at least `min_shared` landmarks with this one, most first; itself not.
 [[nodiscard]] std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared);

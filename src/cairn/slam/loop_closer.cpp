@@ -42,8 +42,7 @@ Attempt attempt(const Map& map, KeyframeId candidate, KeyframeId current, const 
   TrackedFrame found = placed_by(map, candidate, motion, observed.observations.size());
   if (!refine_in_map(map, observed, options, found) || found.inliers < options.loop_min_inliers) return {};
   const Rigid3 candidate_from_current = map[candidate].world_from_camera.inverse() * found.world_from_camera;
-  const bool agrees =
-      map[candidate].part == map[current].part && agrees_with_map(map, current, found);
+  const bool agrees = map[candidate].part == map[current].part && agrees_with_map(map, current, found);
   return {{candidate, current, candidate_from_current, found.inliers, agrees}, true};
 }
 
@@ -67,7 +66,8 @@ LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map
 
 std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
   std::vector<KeyframeId> near = {keyframe};
-  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared)) near.push_back(view.keyframe);
+  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared))
+    near.push_back(view.keyframe);
   const auto contains = [](const std::vector<KeyframeId>& ids, KeyframeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   };

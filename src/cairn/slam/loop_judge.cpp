@@ -39,8 +39,7 @@ double path_length(const Map& map, KeyframeId from, KeyframeId to) {
 LoopVerdict LoopJudge::judge(const Map& map, const LoopHypothesis& loop) {
   if (loop.agrees) return LoopVerdict::agrees;
   const Rigid3 world_from_current = map.world_from_camera(loop.current);
-  const Rigid3 corrected_from_current =
-      map.world_from_camera(loop.candidate) * loop.candidate_from_current;
+  const Rigid3 corrected_from_current = map.world_from_camera(loop.candidate) * loop.candidate_from_current;
   const Rigid3 correction = world_from_current.inverse() * corrected_from_current;  // in the camera
   const std::int32_t part = map.part_of(loop.candidate);
   const bool same_part = part == map.part_of(loop.current);

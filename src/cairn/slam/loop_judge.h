@@ -22,9 +22,9 @@ enum class LoopVerdict {
   believed,
 };
 
-/// Decides which loops are believed. One recognised place may be a wrong one, however many features fit: rooms
-/// and facades repeat themselves. So a loop that bends the map is believed when a second keyframe, near the
-/// first, gives the same correction, and when the correction is one that the odometry may have drifted by
+/// Decides which loops are believed. One recognised place may be a wrong one, however many features fit:
+/// rooms and facades repeat themselves. So a loop that bends the map is believed when a second keyframe, near
+/// the first, gives the same correction, and when the correction is one that the odometry may have drifted by
 /// along the way between the two.
 class LoopJudge {
  public:

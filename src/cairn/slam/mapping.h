@@ -24,8 +24,8 @@ int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& option
 /// Erases the landmarks that one keyframe only shows. Returns how many.
 int erase_unconfirmed(Map& map);
 
-/// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by three
-/// other keyframes at the same or a finer scale. Returns those erased.
+/// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by
+/// three other keyframes at the same or a finer scale. Returns those erased.
 std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options);
 
 }  // namespace cairn

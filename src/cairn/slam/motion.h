@@ -18,7 +18,7 @@ struct Motion {
   Matrix6d information = Matrix6d::Zero();  ///< of the left perturbation (rotation, translation)
   int matches = 0;
   int inliers = 0;
-  double norm = 0;  ///< motion_norm: rad + m
+  double norm = 0;           ///< motion_norm: rad + m
   std::vector<Match> pairs;  ///< the inliers: query is the feature of `current`, train that of `reference`
 };
 

@@ -58,8 +58,8 @@ void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, Obse
   observed.features.keypoints.back().v = static_cast<float>(seen.v);
   observed.observations.push_back(seen);
   const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  observed.points_in_camera.push_back(
-      seen.has_disparity() ? rig.point_at(seen.u, seen.v, rig.depth(seen.d)) : none);
+  observed.points_in_camera.push_back(seen.has_disparity() ? rig.point_at(seen.u, seen.v, rig.depth(seen.d))
+                                                           : none);
 }
 
 }  // namespace

@@ -38,8 +38,7 @@ void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
 void validate_tracking(const TrackingOptions& tracking) {
   check(positive(tracking.motion_radius_px), "tracking.motion_radius_px", "pixels above 0",
         tracking.motion_radius_px);
-  check(positive(tracking.map_radius_px), "tracking.map_radius_px", "pixels above 0",
-        tracking.map_radius_px);
+  check(positive(tracking.map_radius_px), "tracking.map_radius_px", "pixels above 0", tracking.map_radius_px);
   check(tracking.local_keyframes >= 1, "tracking.local_keyframes", "at least 1 keyframe",
         tracking.local_keyframes);
   check(tracking.local_neighbours >= 0, "tracking.local_neighbours", "a number of keyframes from 0",

@@ -22,7 +22,7 @@ struct DepthNoise {
 
 /// How the left-right matches of a stereo sequence become disparities.
 struct StereoNoise {
-  double min_depth = 0.5;       ///< metres: with the baseline, the largest disparity looked for
+  double min_depth = 0.5;             ///< metres: with the baseline, the largest disparity looked for
   double min_disparity_sigmas = 4.0;  ///< a disparity of fewer standard deviations says nothing of the depth
   /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
   /// disparities of an image alike, which many features do not average out.
@@ -41,10 +41,10 @@ struct TrackingOptions {
 struct MappingOptions {
   /// Radians, plus the way over the median depth: a keyframe is due when the view has changed by as much.
   double view_change = 0.05;
-  int trial_keyframes = 3;     ///< a landmark must be seen again within so many, or it is given up
-  int window_keyframes = 12;   ///< that are adjusted together after each new one
-  int window_fixed = 20;       ///< others that see the same landmarks and hold them in place
-  int window_lag = 3;          ///< frames: the adjustment runs beside tracking and is taken over after so many
+  int trial_keyframes = 3;    ///< a landmark must be seen again within so many, or it is given up
+  int window_keyframes = 12;  ///< that are adjusted together after each new one
+  int window_fixed = 20;      ///< others that see the same landmarks and hold them in place
+  int window_lag = 3;         ///< frames: the adjustment runs beside tracking and is taken over after so many
   double redundant_share = 0.9;  ///< of a keyframe's landmarks seen by three others: it is erased
 };
 
@@ -75,7 +75,7 @@ struct SlamOptions {
   int nearby_loops = 0;               ///< so are the last so many keyframes
   int random_loops = 0;               ///< and so many of all others
   int relocalization_keyframes = 20;  ///< recent keyframes tried when lost
-  int lost_frames = 30;  ///< good images that fit nowhere: after so many a second part of the map begins
+  int lost_frames = 30;   ///< good images that fit nowhere: after so many a second part of the map begins
   bool odometry = false;  ///< stop after tracking: no loops, no graph
   std::uint64_t seed = 1;
 

@@ -55,14 +55,16 @@ std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& place
   const auto stream =
       0x100000000ULL + static_cast<std::uint64_t>(observed.frame.value);  // apart from the loop closer's
   auto candidates = candidate_keyframes(map, end, options.relocalization_keyframes, options.random_loops,
-                                              options.seed, stream);
-  for (const PlaceCandidate& place : places.query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
+                                        options.seed, stream);
+  for (const PlaceCandidate& place :
+       places.query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
     add_candidate({place.id}, candidates);
   const auto attempts = executor.map<Attempt>(
       candidates.size(), [&](std::size_t i) { return attempt(map, candidates[i], observed, options); });
-  const auto best = std::max_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
-    return (a.ok ? a.motion.inliers : -1) < (b.ok ? b.motion.inliers : -1);
-  });
+  const auto best =
+      std::max_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
+        return (a.ok ? a.motion.inliers : -1) < (b.ok ? b.motion.inliers : -1);
+      });
   if (best == attempts.end() || !best->ok) return std::nullopt;
   Relocalization found{best->keyframe,
                        placed_by(map, best->keyframe, best->motion, observed.observations.size())};

@@ -19,11 +19,12 @@
 namespace cairn {
 
 struct SlamResult {
-  std::vector<FrameTrack> frames;       ///< one for each frame that was decoded, in order
-  std::vector<std::string> unreadable;  ///< messages of frames that were skipped
-  Map map;                              ///< after the last adjustment
+  std::vector<FrameTrack> frames;            ///< one for each frame that was decoded, in order
+  std::vector<std::string> unreadable;       ///< messages of frames that were skipped
+  Map map;                                   ///< after the last adjustment
   std::vector<Eigen::Matrix3d> covariances;  ///< of its landmarks' points, see Mapper::covariances
-  PoseGraph graph_before, graph_after;  ///< the keyframes by their neighbours and loops; before and after them
+  PoseGraph graph_before,
+      graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
   StageTimes times;
   bool stopped = false;  ///< the user stopped before the last frame

@@ -22,9 +22,9 @@ std::vector<FoundPoint> points_seen(const Map& map, const TrackedFrame& tracked)
 
 std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tracked,
                                          const SlamOptions& options) {
-  const auto keyframes = local_keyframes(map, tracked.landmarks,
-                                         static_cast<std::size_t>(options.tracking.local_keyframes),
-                                         static_cast<std::size_t>(options.tracking.local_neighbours));
+  const auto keyframes =
+      local_keyframes(map, tracked.landmarks, static_cast<std::size_t>(options.tracking.local_keyframes),
+                      static_cast<std::size_t>(options.tracking.local_neighbours));
   std::vector<LandmarkId> seen = tracked.landmarks;
   std::sort(seen.begin(), seen.end());
   std::vector<LandmarkId> around = landmarks_of(map, keyframes, options.mapping.trial_keyframes);
@@ -34,7 +34,8 @@ std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tra
 
 }  // namespace
 
-bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers, TrackedFrame& tracked) {
+bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers,
+                TrackedFrame& tracked) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
   for (const FoundPoint& one : found) {
@@ -43,7 +44,8 @@ bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int mi
   }
   PoseOnlyOptions options;
   options.begin_with_all = true;
-  const PoseOnlyResult pose = refine_pose(view.rig, points, seen, CameraFromWorld(view.camera_from_world), options);
+  const PoseOnlyResult pose =
+      refine_pose(view.rig, points, seen, CameraFromWorld(view.camera_from_world), options);
   const int inliers = static_cast<int>(pose.inliers.size());
   if (!pose.solved || inliers < min_inliers) return false;
   tracked.world_from_camera = pose.camera_from_world.inverse();

@@ -18,7 +18,8 @@ struct TrackedFrame {
 };
 
 /// The pose that most of the found points agree with, from a start that is right to some tens of pixels;
-/// `landmarks` are those of the inliers. False, and `tracked` as it was, where fewer than `min_inliers` agree.
+/// `landmarks` are those of the inliers. False, and `tracked` as it was, where fewer than `min_inliers`
+/// agree.
 [[nodiscard]] bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers,
                               TrackedFrame& tracked);
 
@@ -26,8 +27,8 @@ struct TrackedFrame {
 [[nodiscard]] TrackedFrame placed_by(const Map& map, KeyframeId reference, const Motion& motion,
                                      std::size_t features);
 
-/// Looks for what the map around the frame holds besides the landmarks it has already, and solves for the pose
-/// again with all of them. False, and `tracked` as it was, where fewer than min_inliers agree.
+/// Looks for what the map around the frame holds besides the landmarks it has already, and solves for the
+/// pose again with all of them. False, and `tracked` as it was, where fewer than min_inliers agree.
 [[nodiscard]] bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
                                  TrackedFrame& tracked);
 

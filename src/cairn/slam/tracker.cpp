@@ -118,8 +118,7 @@ void Tracker::refer_to_best(const TrackedFrame& current) {
 }
 
 void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track) {
-  current_from_last_ =
-      lost_ ? Rigid3{} : current.world_from_camera.inverse() * last_.world_from_camera;
+  current_from_last_ = lost_ ? Rigid3{} : current.world_from_camera.inverse() * last_.world_from_camera;
   motion_known_ = !lost_;
   refer_to_best(current);
   track.decision = is_keyframe_due(frame, current) ? KeyframeDecision::keyframe : KeyframeDecision::too_close;

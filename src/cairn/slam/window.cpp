@@ -69,7 +69,8 @@ Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& 
   std::sort(free.begin(), free.end());
   const auto landmarks = landmarks_of(map, free, options.trial_keyframes);
   std::vector<SharedView> around = keyframes_showing(map, landmarks);
-  std::erase_if(around, [&](const SharedView& v) { return std::binary_search(free.begin(), free.end(), v.keyframe); });
+  std::erase_if(
+      around, [&](const SharedView& v) { return std::binary_search(free.begin(), free.end(), v.keyframe); });
   around.resize(std::min(around.size(), static_cast<std::size_t>(options.window_fixed)));
   WindowBuilder builder(map);
   for (const KeyframeId id : free) builder.add_camera(id, around.empty() && id == free.front());
