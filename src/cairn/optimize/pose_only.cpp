@@ -84,8 +84,7 @@ PoseOnlyResult refine_pose(const Rig& rig, std::span<const Eigen::Vector3d> poin
   constexpr std::size_t kFewest = 4;
   PoseOnlyResult result;
   result.camera_from_world = initial_camera_from_world;
-  result.inliers =
-      options.begin_with_all ? all_of(problem) : inliers_of(problem, result.camera_from_world);
+  result.inliers = options.begin_with_all ? all_of(problem) : inliers_of(problem, result.camera_from_world);
   for (int round = 0; round < options.rounds; ++round) {
     if (result.inliers.size() < kFewest ||
         !minimise(problem, result.inliers, options, result.camera_from_world))
