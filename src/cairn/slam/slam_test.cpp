@@ -4,15 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "cairn/core/file.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/g2o_file.h"
-#include "cairn/sequence/simulate_room.h"
-#include "cairn/sequence/write_tum.h"
+#include "cairn/slam/test_room.h"
 
 namespace cairn {
 namespace {
@@ -27,13 +24,7 @@ class SlamTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = fs::temp_directory_path() / ("cairn_slam_test_" + std::to_string(::getpid()));
-    SimulateRoomOptions options;
-    options.frames_count = kFrames;
-    options.camera = {CameraModel::pinhole, 320, 240, 262.5, 262.5, 159.5, 119.5, {}};
-    fs::create_directories(folder_);
-    const Executor executor(2);
-    Progress silent;
-    (void)write_tum(SimulatedRoom(options, executor), folder_, executor, silent);
+    write_small_room(folder_, kFrames);
   }
   static void TearDownTestSuite() { fs::remove_all(folder_); }
 
@@ -41,20 +32,6 @@ class SlamTest : public testing::Test {
     const Executor executor(threads);
     Progress silent;
     return run_slam(sequence, options, executor, silent);
-  }
-
-  /// Root mean square distance to the truth, both worlds being the first camera's.
-  static double error_m(const Sequence& sequence, const SlamResult& result) {
-    const Rigid3 first_from_world = sequence.truth->front().world_from_camera.inverse();
-    double sum = 0;
-    const Trajectory trajectory = result.trajectory();
-    for (const StampedPose& pose : trajectory) {
-      const auto same_time = [&](const StampedPose& truth) { return truth.stamp_ns == pose.stamp_ns; };
-      const auto truth = std::find_if(sequence.truth->begin(), sequence.truth->end(), same_time);
-      sum += ((first_from_world * truth->world_from_camera).translation - pose.world_from_camera.translation)
-                 .squaredNorm();
-    }
-    return std::sqrt(sum / static_cast<double>(trajectory.size()));
   }
 
   static fs::path folder_;
