@@ -47,7 +47,7 @@ TEST(Map, a_landmark_and_its_keyframes_know_each_other) {
 
 TEST(Map, a_sighting_ends_on_both_sides) {
   Map map = map_of_three();
-  const LandmarkId landmark = map.add_landmark({}, {kFirst, 0});
+  const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});
   map.add_sighting(landmark, {kThird, 1});
   map.remove_sighting(landmark, kFirst);
   map.remove_sighting(landmark, kSecond);  // is none
@@ -57,8 +57,8 @@ TEST(Map, a_sighting_ends_on_both_sides) {
 
 TEST(Map, a_landmark_without_sightings_is_erased) {
   Map map = map_of_three();
-  const LandmarkId gone = map.add_landmark({}, {kFirst, 0});
-  const LandmarkId stays = map.add_landmark({}, {kFirst, 1});
+  const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 0});
+  const LandmarkId stays = map.add_landmark({0, 0, 0}, {kFirst, 1});
   map.remove_sighting(gone, kFirst);
   EXPECT_TRUE(map[gone].erased());
   EXPECT_EQ(map.landmark_ids(), (std::vector<LandmarkId>{stays}));
@@ -66,12 +66,12 @@ TEST(Map, a_landmark_without_sightings_is_erased) {
 
 TEST(Map, an_erased_landmark_leaves_its_features_free) {
   Map map = map_of_three();
-  const LandmarkId gone = map.add_landmark({}, {kFirst, 0});
+  const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 0});
   map.add_sighting(gone, {kSecond, 1});
   map.erase(gone);
   EXPECT_FALSE(map[kFirst].landmarks[0].valid());
   EXPECT_FALSE(map[kSecond].landmarks[1].valid());
-  EXPECT_NO_THROW((void)map.add_landmark({}, {kSecond, 1}));
+  EXPECT_NO_THROW((void)map.add_landmark({0, 0, 0}, {kSecond, 1}));
 }
 
 TEST(Map, merging_takes_sightings_over) {
@@ -87,8 +87,8 @@ TEST(Map, merging_takes_sightings_over) {
 
 TEST(Map, merging_ends_the_second_sighting_in_a_keyframe_that_shows_both) {
   Map map = map_of_three();
-  const LandmarkId kept = map.add_landmark({}, {kFirst, 0});
-  const LandmarkId gone = map.add_landmark({}, {kFirst, 1});
+  const LandmarkId kept = map.add_landmark({0, 0, 0}, {kFirst, 0});
+  const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 1});
   map.add_sighting(gone, {kSecond, 2});
   map.merge(gone, kept);
   EXPECT_EQ(map[kFirst].landmarks[0], kept);
@@ -98,9 +98,9 @@ TEST(Map, merging_ends_the_second_sighting_in_a_keyframe_that_shows_both) {
 
 TEST(Map, an_erased_keyframe_shows_nothing) {
   Map map = map_of_three();
-  const LandmarkId shared = map.add_landmark({}, {kFirst, 0});
+  const LandmarkId shared = map.add_landmark({0, 0, 0}, {kFirst, 0});
   map.add_sighting(shared, {kSecond, 0});
-  const LandmarkId own = map.add_landmark({}, {kSecond, 1});
+  const LandmarkId own = map.add_landmark({0, 0, 0}, {kSecond, 1});
   map.erase(kSecond);
   EXPECT_TRUE(map[own].erased());
   EXPECT_EQ(map[shared].sightings, (std::vector<Sighting>{{kFirst, 0}}));
@@ -141,9 +141,9 @@ TEST(Map, an_erased_keyframe_belongs_to_the_part_of_its_parent) {
 
 TEST(Map, a_feature_shows_one_landmark) {
   Map map = map_of_three();
-  const LandmarkId landmark = map.add_landmark({}, {kFirst, 0});
+  const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});
   EXPECT_THROW(map.add_sighting(landmark, {kFirst, 1}), PreconditionError);
-  (void)map.add_landmark({}, {kSecond, 0});
+  (void)map.add_landmark({0, 0, 0}, {kSecond, 0});
   EXPECT_THROW(map.add_sighting(landmark, {kSecond, 0}), PreconditionError);
   EXPECT_EQ(map[landmark].sightings.size(), 1U);
   EXPECT_FALSE(map[kFirst].landmarks[1].valid());
@@ -151,7 +151,7 @@ TEST(Map, a_feature_shows_one_landmark) {
 
 TEST(Map, refuses_what_makes_no_sense) {
   Map map = map_of_three();
-  const LandmarkId landmark = map.add_landmark({}, {kFirst, 0});
+  const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});
   EXPECT_THROW(map.merge(landmark, landmark), PreconditionError);
   EXPECT_THROW(map.erase(kFirst), PreconditionError);
   EXPECT_THROW((void)map.add_keyframe(frame_with_features(1), {}, {3}, 0), PreconditionError);
