@@ -8,6 +8,7 @@
 #include <chrono>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -37,7 +38,7 @@ class ExecutorTest : public testing::TestWithParam<int> {
   const Executor executor_{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(Threads, ExecutorTest, testing::Values(1, 2, 4),
+INSTANTIATE_TEST_SUITE_P(Threads, ExecutorTest, testing::Values(1, 2, 3, 4),
                          [](const auto& instance) { return "threads_" + std::to_string(instance.param); });
 
 TEST_P(ExecutorTest, for_each_visits_every_item_once) {
@@ -182,6 +183,79 @@ TEST_P(ExecutorTest, pipeline_that_stops_before_a_failure_does_not_throw) {
         return 0;
       },
       [](std::size_t i, int&&) { return i < 9; }));
+}
+
+TEST_P(ExecutorTest, a_task_is_done_when_it_was_waited_for) {
+  int result = 0;
+  Executor::Task task = executor_.start([&] { result = 42; });
+  task.wait();
+  EXPECT_EQ(result, 42);
+}
+
+TEST_P(ExecutorTest, a_task_rethrows_when_it_is_waited_for) {
+  Executor::Task task = executor_.start([] { throw std::runtime_error("task"); });
+  EXPECT_THROW(task.wait(), std::runtime_error);
+}
+
+/// So that what it uses may go, too. Alone it has not begun, and does not begin.
+TEST_P(ExecutorTest, a_task_that_nobody_waits_for_is_over_when_it_goes) {
+  bool begun = false, done = false;
+  {
+    const Executor::Task task = executor_.start([&] {
+      begun = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      done = true;
+    });
+  }
+  EXPECT_EQ(begun, GetParam() > 1);
+  EXPECT_EQ(done, begun);
+}
+
+TEST_P(ExecutorTest, a_task_that_throws_may_go_without_being_waited_for) {
+  EXPECT_NO_THROW((void)executor_.start([] { throw std::runtime_error("lost"); }));
+}
+
+TEST_P(ExecutorTest, a_task_may_be_moved) {
+  int result = 0;
+  Executor::Task task = executor_.start([&] { result = 1; });
+  Executor::Task moved = std::move(task);
+  moved.wait();
+  EXPECT_EQ(result, 1);
+}
+
+/// As the adjustment of the map runs beside tracking: begun at one item, waited for some items later.
+TEST_P(ExecutorTest, a_task_may_run_beside_a_pipeline) {
+  std::size_t sum = 0, expected = 0;
+  std::size_t last = 0;
+  std::optional<Executor::Task> task;
+  const auto consume = [&](std::size_t i, std::size_t&& item) {
+    EXPECT_EQ(item, i);
+    if (i % 4 != 0) return true;
+    if (task) {
+      task->wait();
+      expected += last;
+      EXPECT_EQ(sum, expected);
+    }
+    last = i;
+    task.emplace(executor_.start([&sum, i] {
+      work_unevenly(i);
+      sum += i;
+    }));
+    return true;
+  };
+  executor_.ordered_pipeline<std::size_t>(
+      kCount, [](std::size_t i) { return work_unevenly(i), i; }, consume);
+  ASSERT_TRUE(task.has_value());
+  task->wait();
+  EXPECT_EQ(sum, expected + last);
+}
+
+TEST_P(ExecutorTest, a_task_may_hold_loops) {
+  std::atomic<int> visits = 0;
+  Executor::Task task = executor_.start([&] { executor_.for_each(8, [&](std::size_t) { ++visits; }); });
+  executor_.for_each(8, [&](std::size_t) { ++visits; });
+  task.wait();
+  EXPECT_EQ(visits, 16);
 }
 
 TEST(Executor, needs_a_thread) {

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/landmark_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cairn/slam/test_map.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kRadius = 4;
+
+/// A point two metres ahead; what is predicted for it when it was seen from `centre`, 10 px large.
+std::optional<PredictedPlace> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
+  static const ObservedFrame observed;
+  const FrameView view{test::kRig, observed, {}};
+  Appearance appearance;
+  appearance.keypoint.size = 10;
+  appearance.keypoint.sigma_px = sigma_px;
+  appearance.centre_in_world = centre;
+  return predict_place(view, {0, 0, 2}, appearance, kRadius);
+}
+
+/// Seen from two metres away, `degrees` aside.
+Eigen::Vector3d seen_aside(double degrees) {
+  const double angle = degrees * std::numbers::pi / 180;
+  return {2 * std::sin(angle), 0, 2 - 2 * std::cos(angle)};
+}
+
+TEST(PredictPlace, is_where_the_point_projects_to) {
+  const auto place = predict_from({0, 0, 0});
+  ASSERT_TRUE(place);
+  EXPECT_DOUBLE_EQ(place->u, test::kRig.cx);
+  EXPECT_DOUBLE_EQ(place->v, test::kRig.cy);
+  EXPECT_DOUBLE_EQ(place->radius_px, kRadius);
+  EXPECT_LT(place->min_size, 10);
+  EXPECT_GT(place->max_size, 10);
+}
+
+TEST(PredictPlace, is_nowhere_behind_the_camera) {
+  const ObservedFrame observed;
+  const FrameView view{test::kRig, observed, {}};
+  Appearance appearance;
+  appearance.centre_in_world = {0, 0, 2};  // looking back
+  EXPECT_FALSE(predict_place(view, {0, 0, -1}, appearance, kRadius));
+  EXPECT_FALSE(predict_place(view, {0, 0, 0}, appearance, kRadius));
+}
+
+TEST(PredictPlace, is_nowhere_for_a_look_from_far_aside) {
+  EXPECT_TRUE(predict_from(seen_aside(59)));
+  EXPECT_FALSE(predict_from(seen_aside(61)));
+  EXPECT_FALSE(predict_from(seen_aside(180)));
+}
+
+TEST(PredictPlace, is_nowhere_at_another_distance_by_far) {
+  EXPECT_TRUE(predict_from({0, 0, 2 - 2 * 4.9}));
+  EXPECT_FALSE(predict_from({0, 0, 2 - 2 * 5.1}));
+  EXPECT_TRUE(predict_from({0, 0, 2 - 2 / 4.9}));
+  EXPECT_FALSE(predict_from({0, 0, 2 - 2 / 5.1}));
+}
+
+TEST(PredictPlace, grows_when_the_point_is_nearer) {
+  const auto same = predict_from({0, 0, 0}), nearer = predict_from({0, 0, -2}),
+             farther = predict_from({0, 0, 1});
+  ASSERT_TRUE(same && nearer && farther);
+  EXPECT_DOUBLE_EQ(nearer->min_size, 2 * same->min_size);
+  EXPECT_DOUBLE_EQ(nearer->max_size, 2 * same->max_size);
+  EXPECT_DOUBLE_EQ(farther->max_size, same->max_size / 2);
+  EXPECT_DOUBLE_EQ(nearer->radius_px, 2 * kRadius);
+  EXPECT_DOUBLE_EQ(farther->radius_px, kRadius) << "no level is below the lowest";
+  EXPECT_DOUBLE_EQ(predict_from({0, 0, 1}, 6)->radius_px, 3 * kRadius);
+}
+
+/// Keyframes 0 and 1, half a metre apart, with all that they see as landmarks.
+test::MapMaker two_keyframes() {
+  test::MapMaker maker(test::points_ahead(400, 1));
+  (void)maker.add(test::aside(0));
+  (void)maker.add(test::aside(0.5));
+  return maker;
+}
+
+TEST(LandmarkSearch, the_look_is_that_of_the_nearest_keyframe) {
+  const test::MapMaker maker = two_keyframes();
+  const Map& map = maker.map;
+  for (const LandmarkId id : map.landmark_ids()) {
+    if (map[id].sightings.size() < 2) continue;
+    const Appearance look = nearest_appearance(map, map[id], {0.4, 0, 0});
+    EXPECT_EQ(look.descriptors, &map[KeyframeId{1}].observed.features.descriptors);
+    EXPECT_EQ(map[KeyframeId{1}].landmarks[look.row], id);
+    EXPECT_EQ(look.centre_in_world.x(), 0.5);
+    EXPECT_EQ(nearest_appearance(map, map[id], {0, 0, 0}).centre_in_world.x(), 0);
+  }
+}
+
+struct Search {
+  test::MapMaker maker = two_keyframes();
+  test::View seen = maker.world.see(test::aside(0.25), 2);
+  FrameView view{maker.map.rig(), seen.observed, test::aside(0.25).inverse()};
+  SearchTargets targets = landmark_targets(maker.map, maker.map.landmark_ids(), view, kRadius);
+  MatchOptions matching{descriptor_limit(seen.observed.features.descriptors), 0, true};
+
+  [[nodiscard]] LandmarkId landmark_at(std::int32_t feature) const {
+    return maker.known[seen.points[static_cast<std::size_t>(feature)]].landmark;
+  }
+};
+
+TEST(LandmarkSearch, finds_what_a_frame_shows) {
+  const Search search;
+  const auto found = find_targets(search.targets, search.view, {}, search.matching);
+  EXPECT_GT(found.size(), 150U);
+  EXPECT_GE(found.size() + 5, search.seen.points.size());
+  for (const FoundPoint& one : found) {
+    EXPECT_EQ(one.landmark, search.landmark_at(one.feature));
+    EXPECT_EQ(one.point_in_world, search.maker.map[one.landmark].point_in_world);
+  }
+}
+
+TEST(LandmarkSearch, leaves_features_with_a_landmark_out) {
+  const Search search;
+  std::vector<LandmarkId> occupied(search.seen.points.size());
+  for (std::size_t i = 0; i < occupied.size(); i += 2) occupied[i] = {0};
+  const auto found = find_targets(search.targets, search.view, occupied, search.matching);
+  EXPECT_GT(found.size(), 70U);
+  for (const FoundPoint& one : found) EXPECT_EQ(one.feature % 2, 1);
+}
+
+TEST(LandmarkSearch, finds_nothing_where_it_is_not_seen) {
+  Search search;
+  for (PredictedPlace& place : search.targets.places) place.u += 3 * kRadius;
+  EXPECT_TRUE(find_targets(search.targets, search.view, {}, search.matching).empty());
+}
+
+TEST(LandmarkSearch, finds_nothing_that_looks_different) {
+  Search search;
+  for (test::WorldPoint& point : search.maker.world.points) point.look += 1000;
+  search.seen = search.maker.world.see(test::aside(0.25), 2);
+  EXPECT_TRUE(find_targets(search.targets, search.view, {}, search.matching).empty());
+}
+
+TEST(LandmarkSearch, without_targets_there_is_nothing_to_find) {
+  const Search search;
+  EXPECT_TRUE(find_targets({}, search.view, {}, search.matching).empty());
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/slam/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include "cairn/slam/test_map.h"
+
+namespace cairn {
+namespace {
+
+/// A tracker that begins at a keyframe in the origin.
+class TrackerTest : public testing::Test {
+ protected:
+  TrackerTest() {
+    maker_.world.noise_px = 0.3;
+    const KeyframeId first = maker_.add({});
+    places_.add(first.value, maker_.map[first].observed.features.descriptors);
+    (void)tracker_.track(ObservedFrame(maker_.map[first].observed));
+    tracker_.refer_to(first);
+  }
+
+  FrameTrack track(const Rigid3& truth) { return tracker_.track(maker_.world.see(truth, ++frame_).observed); }
+  FrameTrack track_nothing() { return tracker_.track(test::blank_frame(0, ++frame_)); }
+
+  [[nodiscard]] double error(const FrameTrack& track, const Rigid3& truth) const {
+    const Rigid3 pose = maker_.map.world_from_camera(*track.reference) * track.reference_from_frame;
+    return motion_norm(pose.inverse() * truth);
+  }
+
+  test::MapMaker maker_{test::points_ahead(600, 12)};
+  PlaceIndex places_;
+  SlamOptions options_;
+  Executor executor_;
+  Tracker tracker_{options_, executor_, maker_.map, places_};
+  std::int32_t frame_ = 0;
+};
+
+TEST_F(TrackerTest, follows_the_camera) {
+  for (int k = 1; k <= 15; ++k) {
+    const Rigid3 truth{rotation_exp({0, 0.01 * k, 0}), {0.02 * k, 0, 0.01 * k}};
+    const FrameTrack seen = track(truth);
+    ASSERT_TRUE(seen.tracked()) << k;
+    EXPECT_LT(error(seen, truth), 4e-3) << k;
+    EXPECT_EQ(*seen.reference, KeyframeId{0});
+    EXPECT_EQ(seen.frame, FrameId{k});
+    EXPECT_FALSE(seen.relocalized);
+    EXPECT_GT(seen.inliers, 100);
+  }
+}
+
+TEST_F(TrackerTest, finds_the_motion_without_a_prediction) {
+  const Rigid3 truth{rotation_exp({0, 0.25, 0}), {0.1, 0, 0}};  // 130 pixels at once
+  const FrameTrack seen = track(truth);
+  ASSERT_TRUE(seen.tracked());
+  EXPECT_LT(error(seen, truth), 3e-3);
+}
+
+TEST_F(TrackerTest, a_keyframe_is_due_when_the_view_has_changed) {
+  EXPECT_EQ(track(test::aside(0.02)).decision, KeyframeDecision::too_close);
+  EXPECT_EQ(track(test::aside(0.05)).decision, KeyframeDecision::too_close);
+  EXPECT_EQ(track(test::aside(0.25)).decision, KeyframeDecision::keyframe);
+}
+
+TEST_F(TrackerTest, a_keyframe_is_due_when_little_is_left_to_follow) {
+  options_.weak_tracking = 100000;
+  EXPECT_EQ(track(test::aside(0.01)).decision, KeyframeDecision::keyframe);
+}
+
+TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
+  ASSERT_TRUE(track(test::aside(0.05)).tracked());
+  const FrameTrack nothing = track_nothing();
+  EXPECT_FALSE(nothing.tracked());
+  EXPECT_EQ(nothing.decision, KeyframeDecision::not_matched);
+  EXPECT_TRUE(tracker_.lost());
+  const Rigid3 truth = test::aside(0.4);
+  const FrameTrack again = track(truth);
+  ASSERT_TRUE(again.tracked());
+  EXPECT_TRUE(again.relocalized);
+  EXPECT_FALSE(tracker_.lost());
+  EXPECT_LT(error(again, truth), 3e-3);
+  EXPECT_FALSE(track(test::aside(0.45)).relocalized);
+}
+
+TEST_F(TrackerTest, moves_with_the_map) {
+  (void)track(test::aside(0.05));
+  const Rigid3 moved{rotation_exp({0, 0.8, 0}), {1, 2, 3}};
+  Map& map = maker_.map;
+  map.move(KeyframeId{0}, moved);
+  for (const LandmarkId id : map.landmark_ids()) map.move(id, moved * map[id].point_in_world);
+  tracker_.follow_map();
+  EXPECT_LT(motion_norm(tracker_.last().world_from_camera.inverse() * moved * test::aside(0.05)), 2e-3);
+  const FrameTrack seen = track(test::aside(0.1));
+  ASSERT_TRUE(seen.tracked());
+  EXPECT_FALSE(seen.relocalized);
+  EXPECT_LT(error(seen, moved * test::aside(0.1)), 2e-3);
+}
+
+TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
+  (void)track(test::aside(0.05));
+  Map& map = maker_.map;
+  for (const LandmarkId id : map.landmark_ids())
+    if (id.value % 2 == 0) map.erase(id);
+  const FrameTrack seen = track(test::aside(0.1));
+  ASSERT_TRUE(seen.tracked());
+  EXPECT_LT(error(seen, test::aside(0.1)), 2e-3);
+  for (const LandmarkId id : tracker_.last().landmarks)
+    if (id.valid()) {
+      EXPECT_FALSE(map[id].erased());
+    }
+}
+
+TEST(Tracker, without_a_map_nothing_is_tracked) {
+  const SlamOptions options;
+  const Executor executor;
+  const Map map(test::kRig, "ORB");
+  const PlaceIndex places;
+  Tracker tracker(options, executor, map, places);
+  EXPECT_FALSE(tracker.track(test::points_ahead(300, 1).see({}, 0).observed).tracked());
+  EXPECT_TRUE(tracker.lost());
+}
+
+}  // namespace
+}  // namespace cairn
