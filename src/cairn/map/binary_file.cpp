@@ -42,7 +42,7 @@ BinaryReader::BinaryReader(const std::filesystem::path& path, const BinaryKind& 
   if (const auto version = get<std::uint32_t>(); version != kind.version)
     fail(fmt::format("version {} of the format", kind.version), fmt::format("version {}", version));
   const std::string_view body = std::string_view(contents_).substr(0, contents_.size() - kChecksumBytes);
-  if (crc32(body) != checksum())
+  if (crc32(body) != stored_checksum(contents_))
     fail("contents that fit their CRC-32", "others: the file is damaged or cut short");
 }
 
@@ -55,6 +55,10 @@ const char* BinaryReader::get_bytes(std::size_t count) {
   const char* bytes = contents_.data() + next_;
   next_ += count;
   return bytes;
+}
+
+void BinaryReader::expect_checksum(std::optional<std::uint32_t> checksum) const {
+  if (checksum != stored_checksum(contents_)) fail("the file that map.json names, by its CRC-32", "another");
 }
 
 void BinaryReader::expect_bytes(std::uint64_t count, std::uint64_t bytes, std::uint64_t more_count,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -63,7 +64,8 @@ class BinaryReader {
   /// `more_count` of `more_bytes`: ask before making room for them.
   void expect_bytes(std::uint64_t count, std::uint64_t bytes, std::uint64_t more_count = 0,
                     std::uint64_t more_bytes = 1) const;
-  [[nodiscard]] std::uint32_t checksum() const { return stored_checksum(contents_); }
+  /// InputError unless the file ends with this checksum: it is another file's.
+  void expect_checksum(std::optional<std::uint32_t> checksum) const;
   [[noreturn]] void fail(std::string expected, std::string found) const;
 
  private:

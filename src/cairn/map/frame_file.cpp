@@ -53,19 +53,14 @@ Keypoint get_keypoint(const Observation& seen, BinaryReader& reader) {
 /// The number of features; what the header says is as announced.
 std::uint32_t get_header(const MapInfo& info, KeyframeId number, BinaryReader& reader) {
   const KeyframeEntry& entry = info.keyframes[static_cast<std::size_t>(number.value)];
-  if (reader.checksum() != entry.checksum)
-    reader.fail("the file that map.json names, by its CRC-32", "another");
+  reader.expect_checksum(entry.checksum);
   const auto found_number = reader.get<std::int32_t>(), frame = reader.get<std::int32_t>();
   if (found_number != number.value || frame != entry.frame.value)
     reader.fail(fmt::format("keyframe {} of frame {}", number.value, entry.frame.value),
                 fmt::format("keyframe {} of frame {}", found_number, frame));
-  const auto count = reader.get<std::uint32_t>(), bytes = reader.get<std::uint32_t>();
-  const auto norm = reader.get<std::uint32_t>();
-  if (bytes != info.descriptor.bytes || norm != static_cast<std::uint32_t>(info.descriptor.norm))
-    reader.fail(fmt::format("descriptors of {} bytes with norm {}, as map.json says", info.descriptor.bytes,
-                            to_string(info.descriptor.norm)),
-                fmt::format("{} bytes with norm number {}", bytes, norm));
-  reader.expect_bytes(count, kRecordBytes + bytes);
+  const auto count = reader.get<std::uint32_t>();
+  get_descriptor_kind(info.descriptor, reader);
+  reader.expect_bytes(count, kRecordBytes + info.descriptor.bytes);
   return count;
 }
 

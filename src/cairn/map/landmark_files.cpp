@@ -25,9 +25,7 @@ std::uint64_t padded(std::uint64_t bytes) {
 BinaryReader open_announced(const std::filesystem::path& folder, const MapInfo& info, const char* name,
                             const BinaryKind& kind) {
   BinaryReader reader(folder / name, kind);
-  const auto announced = info.checksums.find(name);
-  if (announced == info.checksums.end() || announced->second != reader.checksum())
-    reader.fail("the file that map.json names, by its CRC-32", "another");
+  reader.expect_checksum(info.checksum_of(name));
   return reader;
 }
 
@@ -132,11 +130,8 @@ std::vector<StoredLandmark> read_point_file(const std::filesystem::path& folder,
 
 StoredSightings read_descriptor_file(const std::filesystem::path& folder, const MapInfo& info) {
   BinaryReader reader = open_announced(folder, info, kDescriptorFile, kDescriptorKind);
-  const auto bytes = reader.get<std::uint32_t>(), norm = reader.get<std::uint32_t>();
-  if (bytes != info.descriptor.bytes || norm != static_cast<std::uint32_t>(info.descriptor.norm))
-    reader.fail(fmt::format("descriptors of {} bytes with norm {}, as map.json says", info.descriptor.bytes,
-                            to_string(info.descriptor.norm)),
-                fmt::format("{} bytes with norm number {}", bytes, norm));
+  get_descriptor_kind(info.descriptor, reader);
+  const std::uint32_t bytes = info.descriptor.bytes;
   const std::uint64_t stride = kSightingBytes + padded(bytes);
   expect_count(reader, stride, reader.get<std::uint32_t>(), "bytes a record");
   expect_count(reader, info.sightings, reader.get<std::uint64_t>(), "sightings");

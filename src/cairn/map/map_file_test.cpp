@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "cairn/core/checksum.h"
 #include "cairn/core/error.h"
-#include "cairn/map/map_test_scene.h"
+#include "cairn/map/test_map.h"
 
 namespace cairn {
 namespace {

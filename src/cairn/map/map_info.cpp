@@ -8,12 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cairn/core/checksum.h"
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/features/extractor.h"
-#include "cairn/map/binary_file.h"
 
 namespace cairn {
 namespace {
@@ -192,6 +192,19 @@ class MapInfoReader {
 
 std::string_view to_string(Norm norm) {
   return norm == Norm::hamming ? "hamming" : "l2";
+}
+
+void get_descriptor_kind(const DescriptorKind& kind, BinaryReader& reader) {
+  const auto bytes = reader.get<std::uint32_t>(), norm = reader.get<std::uint32_t>();
+  if (bytes != kind.bytes || norm != static_cast<std::uint32_t>(kind.norm))
+    reader.fail(fmt::format("descriptors of {} bytes with norm {}, as map.json says", kind.bytes,
+                            to_string(kind.norm)),
+                fmt::format("{} bytes with norm number {}", bytes, norm));
+}
+
+std::optional<std::uint32_t> MapInfo::checksum_of(const std::string& name) const {
+  const auto place = checksums.find(name);
+  return place == checksums.end() ? std::nullopt : std::optional(place->second);
 }
 
 std::string frame_file_name(KeyframeId number, const std::string& descriptor) {

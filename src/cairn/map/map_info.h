@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cairn/core/id.h"
 #include "cairn/features/features.h"
 #include "cairn/geometry/rig.h"
+#include "cairn/map/binary_file.h"
 
 namespace cairn {
 
@@ -41,6 +43,9 @@ struct KeyframeEntry {
   std::uint32_t checksum = 0;  ///< that its file in frames/ ends with
 };
 
+/// Takes bytes and norm of descriptors from a file's header; InputError where they are not those of `kind`.
+void get_descriptor_kind(const DescriptorKind& kind, BinaryReader& reader);
+
 /// Contents of map.json: what the other files hold, and their checksums, by which files of two maps in one
 /// folder are found out.
 struct MapInfo {
@@ -53,6 +58,9 @@ struct MapInfo {
   /// By name, of the files beside map.json: of a text the CRC-32 of its bytes, of a binary file the one that
   /// it ends with.
   std::map<std::string, std::uint32_t> checksums;
+
+  /// Nothing where map.json does not name the file.
+  [[nodiscard]] std::optional<std::uint32_t> checksum_of(const std::string& name) const;
 };
 
 /// "frames/000007.orb": by the keyframe's number and the kind of its descriptors.

@@ -44,8 +44,7 @@ fs::path require_map_folder(const fs::path& folder) {
 
 void check_text(const fs::path& folder, const MapInfo& info, const char* name) {
   const std::string text = read_file(folder / name);
-  const auto announced = info.checksums.find(name);
-  if (announced == info.checksums.end() || announced->second != crc32(text))
+  if (info.checksum_of(name) != crc32(text))
     fail(folder / name, "contents that fit their CRC-32 in map.json",
          "others: the file is damaged or was changed");
 }

@@ -8,9 +8,11 @@
 #include <map>
 #include <string>
 
+#include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
 #include "cairn/map/map.h"
+#include "cairn/map/map_file.h"
 
 namespace cairn {
 
@@ -45,6 +47,20 @@ inline std::map<std::string, std::string> contents_of(const std::filesystem::pat
     if (entry.is_regular_file())
       contents[entry.path().lexically_relative(folder).string()] = read_file(entry.path());
   return contents;
+}
+
+/// What read_map says, with MAP for the folder.
+inline std::string message_for(const std::filesystem::path& folder) {
+  try {
+    (void)read_map(folder);
+  } catch (const InputError& error) {
+    std::string message = error.what();
+    const std::string path = folder.string();
+    if (const auto place = message.find(path); place != std::string::npos)
+      message.replace(place, path.size(), "MAP");
+    return message;
+  }
+  return "no error";
 }
 
 /// A frame whose feature i shows point i, each third without a disparity.
