@@ -21,7 +21,7 @@ ROOMS = {
     "image": {"opencv", "png", "turbojpeg"},
     "sequence": {"yaml-cpp", "GeographicLib"},
     "features": {"opencv"},
-    "map": set(),
+    "map": {"nlohmann"},
     "optimize": {"ceres"},
     "slam": set(),
     "survey": set(),

@@ -5,8 +5,11 @@
 #include <numbers>
 #include <vector>
 
+#include "cairn/core/error.h"
+#include "cairn/map/map_file.h"
 #include "commands.h"
 #include "common.h"
+#include "info_map.h"
 
 namespace cairn::app {
 namespace {
@@ -134,17 +137,30 @@ void print_json(const Sequence& sequence) {
   fmt::print("{}\n", json.dump(2));
 }
 
+/// What chooses from a sequence would do nothing for a map.
+void require_no_choice(const CLI::App& app) {
+  for (const char* option : {"--camera", "--frames", "--without"}) {
+    if (app.count(option) > 0)
+      throw InputError({option, 0, "a sequence to apply it to", "a map", "Leave the option out."});
+  }
+}
+
 }  // namespace
 
 int run_info(int argc, char** argv) {
-  CLI::App app("What a sequence is: format, frames, cameras, truth.", "info");
+  CLI::App app("What a sequence or a map is: format, frames, cameras, truth; keyframes, landmarks.", "info");
   CommonOptions common;
   SequenceArguments arguments;
-  app.add_option("SEQ", arguments.folder, "folder with a sequence")->required();
+  app.add_option("SEQ", arguments.folder, "folder with a sequence, a map, or a run with its map")->required();
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.quiet = false});
   app.footer("Example: cairn info demo/room");
   if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto map = find_map_folder(arguments.folder)) {
+    require_no_choice(app);
+    print_map_info(*map, common.json);
+    return 0;
+  }
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration
   common.json ? print_json(sequence) : print_text(sequence);

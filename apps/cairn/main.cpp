@@ -23,7 +23,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"simulate", "make an RGB-D (room) or stereo (street) sequence with exact truth",
      cairn::app::run_simulate},
-    {"info", "say what a sequence is: format, frames, cameras, truth", cairn::app::run_info},
+    {"info", "say what a sequence or a map is: format, frames, cameras, truth", cairn::app::run_info},
     {"rectify", "the rectified pairs of a stereo sequence, in KITTI layout", cairn::app::run_rectify},
     {"slam", "RGB-D sequence to trajectory, keyframe map, coloured cloud and octree", cairn::app::run_slam},
     {"cloud", "coloured cloud (.ply, .pcd) from a sequence and its poses", cairn::app::run_cloud},

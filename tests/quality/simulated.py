@@ -33,8 +33,10 @@ class Room(program.Quality):
         (self.folder / "reader.py").write_text(code)
         done = subprocess.run([sys.executable, "reader.py", "run/map"], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
-        keyframes = json.loads((self.folder / "run/run.json").read_text())["keyframes"]
-        self.assertIn(f"{keyframes} keyframes", done.stdout)
+        run = json.loads((self.folder / "run/run.json").read_text())
+        self.assertIn(f"{run['keyframes']} keyframes, {run['landmarks']} landmarks", done.stdout)
+        info = self.figures("info", "run")
+        self.assertEqual((info["keyframes"], info["landmarks"]), (run["keyframes"], run["landmarks"]))
 
 
 class Small(program.Quality):

@@ -10,6 +10,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/geometry/unit_rotation.h"
 
 namespace cairn {
 namespace {
@@ -49,8 +50,7 @@ Eigen::Quaterniond parse_quaternion(const TextFile& file, const TextLine& line, 
     file.fail(line, "a quaternion of length 1", fmt::format("one of length {:.4g}", length),
               "Check the order of the columns: x y z qx qy qz qw.");
   }
-  constexpr double kRounding = 1e-15;  // what we wrote ourselves is to come back unchanged
-  return std::abs(length - 1.0) <= kRounding ? rotation : rotation.normalized();
+  return unit_rotation(rotation);
 }
 
 Rigid3 parse_pose(const TextFile& file, const TextLine& line, std::size_t first) {

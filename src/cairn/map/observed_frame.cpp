@@ -6,6 +6,11 @@
 
 namespace cairn {
 
+Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen) {
+  if (!seen.has_disparity()) return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  return rig.point_at(seen.u, seen.v, rig.depth(seen.d));
+}
+
 double median_depth(const ObservedFrame& frame) {
   std::vector<double> depths;
   for (const Eigen::Vector3d& point : frame.points_in_camera)

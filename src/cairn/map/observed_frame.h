@@ -20,6 +20,9 @@ struct ObservedFrame {
   std::vector<Eigen::Vector3d> points_in_camera;  ///< one per feature; NaN where depth is unknown
 };
 
+/// Where an observation places what it shows, metres; NaN without a disparity.
+[[nodiscard]] Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen);
+
 /// Median of the features' depths, metres; NaN where none has a depth.
 [[nodiscard]] double median_depth(const ObservedFrame& frame);
 

@@ -7,6 +7,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/geometry/unit_rotation.h"
 
 namespace cairn {
 namespace {
@@ -44,7 +45,7 @@ StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size
     file.fail(line, "a quaternion of length 1", fmt::format("one of length {:.4g}", length),
               fmt::format("Check the order of the columns: {}.", kLayout));
   }
-  q.normalize();
+  q = unit_rotation(q);
   return pose;
 }
 

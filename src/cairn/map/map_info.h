@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/core/id.h"
+#include "cairn/features/features.h"
+#include "cairn/geometry/rig.h"
+#include "cairn/map/binary_file.h"
+
+namespace cairn {
+
+/// Version of the layout of all files of a map.
+constexpr std::uint32_t kMapVersion = 2;
+
+/// Names of files in the folder of a map, see docs/map_format.md.
+constexpr const char* kMapInfoFile = "map.json";
+constexpr const char* kPosesFile = "poses.txt";
+constexpr const char* kUvlistFile = "uvlist.txt";
+constexpr const char* kPointFile = "Point.bin";
+constexpr const char* kDescriptorFile = "Descriptor.bin";
+
+/// What the descriptors of a map are called, how they are compared, and how long one is.
+struct DescriptorKind {
+  std::string name;
+  Norm norm = Norm::hamming;
+  std::uint32_t bytes = 0;
+};
+
+/// "hamming" or "l2".
+[[nodiscard]] std::string_view to_string(Norm norm);
+
+/// One keyframe in map.json.
+struct KeyframeEntry {
+  FrameId frame;  ///< position in its sequence; not valid where that is not known any more
+  std::int64_t stamp_ns = 0;
+  std::int32_t part = 0;
+  std::uint32_t checksum = 0;  ///< that its file in frames/ ends with
+};
+
+/// Takes bytes and norm of descriptors from a file's header; InputError where they are not those of `kind`.
+void get_descriptor_kind(const DescriptorKind& kind, BinaryReader& reader);
+
+/// Contents of map.json: what the other files hold, and their checksums, by which files of two maps in one
+/// folder are found out.
+struct MapInfo {
+  Rig rig;
+  DescriptorKind descriptor;
+  std::vector<KeyframeEntry> keyframes;
+  std::uint32_t landmarks = 0;
+  std::uint64_t features = 0;   ///< of all keyframes
+  std::uint64_t sightings = 0;  ///< of all landmarks
+  /// By name, of the files beside map.json: of a text the CRC-32 of its bytes, of a binary file the one that
+  /// it ends with.
+  std::map<std::string, std::uint32_t> checksums;
+
+  /// Nothing where map.json does not name the file.
+  [[nodiscard]] std::optional<std::uint32_t> checksum_of(const std::string& name) const;
+};
+
+/// "frames/000007.orb": by the keyframe's number and the kind of its descriptors.
+[[nodiscard]] std::string frame_file_name(KeyframeId number, const std::string& descriptor);
+
+/// Whether cairn has descriptors of that name; case does not matter.
+[[nodiscard]] bool is_known_descriptor(const std::string& name);
+
+/// The text of map.json; its last member is the CRC-32 of all before it.
+[[nodiscard]] std::string format_map_info(const MapInfo& info);
+
+/// InputError where the file is missing, no JSON, of another version, damaged, lacks something, or
+/// contradicts itself.
+[[nodiscard]] MapInfo read_map_info(const std::filesystem::path& path);
+
+}  // namespace cairn

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "cairn/core/checksum.h"
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/text.h"
+#include "cairn/map/binary_file.h"
+#include "cairn/map/frame_file.h"
+#include "cairn/map/landmark_files.h"
+#include "cairn/map/map_file.h"
+#include "cairn/map/map_info.h"
+#include "cairn/sequence/trajectory.h"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// All files of a map, each sound in itself.
+struct MapFiles {
+  fs::path folder;
+  MapInfo info;
+  std::vector<WorldFromCamera> poses;
+  std::vector<FrameFile> frames;
+  std::vector<StoredLandmark> landmarks;
+  StoredSightings sightings;
+};
+
+[[noreturn]] void fail(const fs::path& path, std::string expected, std::string found) {
+  throw InputError({path.string(), 0, std::move(expected), std::move(found), std::string(kMapRemedy)});
+}
+
+fs::path require_map_folder(const fs::path& folder) {
+  if (const auto found = find_map_folder(folder)) return *found;
+  std::error_code error;
+  throw InputError({folder.string(), 0, "the folder of a map, or of a run with one in its map/",
+                    fs::exists(folder, error) ? "none of its files" : "nothing of that name",
+                    "Check the path; cairn slam makes a map."});
+}
+
+void check_text(const fs::path& folder, const MapInfo& info, const char* name) {
+  const std::string text = read_file(folder / name);
+  if (info.checksum_of(name) != crc32(text))
+    fail(folder / name, "contents that fit their CRC-32 in map.json",
+         "others: the file is damaged or was changed");
+}
+
+/// Their stamps need not increase: a map may hold several recordings.
+std::vector<WorldFromCamera> read_poses(const fs::path& folder, const MapInfo& info) {
+  check_text(folder, info, kPosesFile);
+  const TextFile file(folder / kPosesFile);
+  if (file.lines().size() != info.keyframes.size())
+    fail(file.path(), fmt::format("{} poses, as map.json says", info.keyframes.size()),
+         fmt::format("{}", file.lines().size()));
+  std::vector<WorldFromCamera> poses;
+  for (const TextLine& line : file.lines()) {
+    file.expect_fields(line, 8, "t tx ty tz qx qy qz qw");
+    const StampedPose pose = parse_tum_pose(file, line, 0);
+    if (const auto stamp_ns = info.keyframes[poses.size()].stamp_ns; pose.stamp_ns != stamp_ns)
+      file.fail(line, fmt::format("the stamp {}, as map.json says", format_stamp(stamp_ns)),
+                format_stamp(pose.stamp_ns), std::string(kMapRemedy));
+    poses.push_back(pose.world_from_camera);
+  }
+  return poses;
+}
+
+std::vector<FrameFile> read_frames(const fs::path& folder, const MapInfo& info) {
+  std::vector<FrameFile> frames;
+  std::uint64_t features = 0;
+  for (std::size_t i = 0; i < info.keyframes.size(); ++i) {
+    frames.push_back(read_frame_file(folder, info, {static_cast<std::int32_t>(i)}));
+    features += frames.back().landmarks.size();
+  }
+  if (features != info.features)
+    fail(folder / kMapInfoFile, fmt::format("{} features, as the files in frames/ have", features),
+         fmt::format("{}", info.features));
+  return frames;
+}
+
+MapFiles read_files(const fs::path& folder) {
+  MapFiles files;
+  files.folder = folder;
+  files.info = read_map_info(folder / kMapInfoFile);
+  files.poses = read_poses(folder, files.info);
+  check_text(folder, files.info, kUvlistFile);
+  files.frames = read_frames(folder, files.info);
+  files.landmarks = read_point_file(folder, files.info);
+  files.sightings = read_descriptor_file(folder, files.info);
+  return files;
+}
+
+/// The feature of a sighting shows this landmark, and looks as Descriptor.bin says.
+void check_sighting(const MapFiles& files, std::size_t landmark, std::uint32_t row) {
+  const Sighting& sighting = files.sightings.sightings[row];
+  const FrameFile& frame = files.frames[static_cast<std::size_t>(sighting.keyframe.value)];
+  const auto feature = static_cast<std::size_t>(sighting.feature);
+  const bool shows = sighting.feature >= 0 && feature < frame.landmarks.size() &&
+                     frame.landmarks[feature].value == static_cast<std::int64_t>(landmark);
+  if (!shows)
+    fail(files.folder / kPointFile,
+         fmt::format("landmark {} where keyframe {} shows it", landmark, sighting.keyframe.value),
+         fmt::format("it at feature {}", sighting.feature));
+  const Descriptors& described = frame.observed.features.descriptors;
+  if (std::memcmp(described.row(feature), files.sightings.descriptors.row(row), described.bytes()) != 0)
+    fail(files.folder / kDescriptorFile, fmt::format("in row {} the descriptor of frames/", row), "another");
+}
+
+/// Point.bin, Descriptor.bin and frames/ say the same.
+void check_sightings(const MapFiles& files) {
+  for (std::size_t i = 0; i < files.landmarks.size(); ++i) {
+    KeyframeId before;
+    for (const std::uint32_t row : files.landmarks[i].descriptors) {
+      check_sighting(files, i, row);
+      const KeyframeId keyframe = files.sightings.sightings[row].keyframe;
+      if (keyframe <= before)
+        fail(files.folder / kPointFile, fmt::format("increasing keyframes of landmark {}", i),
+             fmt::format("{} after {}", keyframe.value, before.value));
+      before = keyframe;
+    }
+  }
+  std::uint64_t shown = 0;
+  for (const FrameFile& frame : files.frames)
+    shown += static_cast<std::uint64_t>(std::count_if(frame.landmarks.begin(), frame.landmarks.end(),
+                                                      [](LandmarkId id) { return id.valid(); }));
+  if (shown != files.info.sightings)
+    fail(files.folder / kPointFile, fmt::format("{} sightings, as frames/ has", shown),
+         fmt::format("{}", files.info.sightings));
+}
+
+/// For each keyframe the earlier one of its part that shows most of the landmarks that it shows, the latest
+/// of several, or the one before it in its part; not valid for a part's first.
+std::vector<KeyframeId> choose_parents(const MapFiles& files) {
+  const auto part_of = [&](std::size_t keyframe) { return files.info.keyframes[keyframe].part; };
+  std::vector<KeyframeId> parents(files.frames.size());
+  std::vector<std::vector<std::size_t>> shown_by(files.landmarks.size());
+  for (std::size_t i = 0; i < files.frames.size(); ++i) {
+    std::vector<int> shared(i, 0);
+    for (const LandmarkId id : files.frames[i].landmarks) {
+      if (!id.valid()) continue;
+      auto& earlier = shown_by[static_cast<std::size_t>(id.value)];
+      for (const std::size_t keyframe : earlier) ++shared[keyframe];
+      earlier.push_back(i);
+    }
+    int most = 0;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (part_of(k) != part_of(i) || shared[k] < most) continue;
+      most = shared[k];
+      parents[i] = {static_cast<std::int32_t>(k)};
+    }
+  }
+  return parents;
+}
+
+/// Of files that were checked; they are taken apart.
+Map build_map(MapFiles&& files) {
+  Map map(files.info.rig, files.info.descriptor.name);
+  const std::vector<KeyframeId> parents = choose_parents(files);
+  for (std::size_t i = 0; i < files.frames.size(); ++i)
+    map.add_keyframe(std::move(files.frames[i].observed), files.poses[i], parents[i],
+                     files.info.keyframes[i].part);
+  for (const StoredLandmark& landmark : files.landmarks) {
+    LandmarkId id;
+    for (const std::uint32_t row : landmark.descriptors) {
+      const Sighting& sighting = files.sightings.sightings[row];
+      if (id.valid())
+        map.add_sighting(id, sighting);
+      else
+        id = map.add_landmark(landmark.point_in_world, sighting);
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::optional<fs::path> find_map_folder(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::path& candidate : {folder, folder / "map"})
+    for (const char* name : {kMapInfoFile, kPointFile, kDescriptorFile})
+      if (fs::is_regular_file(candidate / name, error)) return candidate;
+  return {};
+}
+
+Map read_map(const fs::path& folder) {
+  MapFiles files = read_files(require_map_folder(folder));
+  check_sightings(files);
+  return build_map(std::move(files));
+}
+
+std::vector<Eigen::Matrix3d> read_covariances(const fs::path& folder) {
+  const fs::path place = require_map_folder(folder);
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const StoredLandmark& landmark : read_point_file(place, read_map_info(place / kMapInfoFile)))
+    covariances.push_back(landmark.covariance);
+  return covariances;
+}
+
+}  // namespace cairn
