@@ -110,6 +110,22 @@ TEST(RefineInMap, finds_the_rest_of_the_landmarks) {
   EXPECT_LT(pose_error(tracked, scene), 1e-3);
 }
 
+/// Two keyframes have each made its own landmarks of the same points.
+TEST(RefineInMap, a_feature_with_a_landmark_gets_no_second_one) {
+  test::MapMaker maker(test::points_ahead(500, 2), 0);
+  for (int k = 0; k < 2; ++k) (void)maker.add({});
+  const test::View seen = maker.world.see({}, 2);
+  TrackedFrame tracked;
+  for (std::size_t i = 0; i < seen.points.size(); ++i) {
+    const KeyframeId shown_by{static_cast<std::int32_t>(i % 2)};
+    tracked.landmarks.push_back(maker.map[shown_by].landmarks[i]);
+  }
+  const std::vector<LandmarkId> before = tracked.landmarks;
+  ASSERT_TRUE(refine_in_map(maker.map, seen.observed, {}, tracked));
+  EXPECT_EQ(tracked.matches, static_cast<int>(seen.points.size()));
+  EXPECT_EQ(tracked.landmarks, before);
+}
+
 TEST(RefineInMap, leaves_the_frame_alone_where_the_map_has_nothing) {
   const Scene scene;
   TrackedFrame tracked;
