@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "cairn/core/file.h"
+#include "cairn/map/map_file.h"
 #include "commands.h"
 #include "common.h"
 #include "fusion.h"
@@ -32,7 +33,8 @@ void declare(CLI::App& app, SlamArguments& arguments) {
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
   app.footer([] {
     return "Example: cairn slam demo/room -o demo/run\n"
-           "         cairn slam SEQ -o RUN --set features=1500 --set keyframe_threshold=0.2\n"
+           "         cairn slam SEQ2 -o RUN2 --map RUN\n"
+           "         cairn slam SEQ -o RUN --set features=1000 --set keyframe_threshold=0.2\n"
            "Parameters for --set and --config with their defaults; the README says what they mean, and "
            "RUN/config.yaml "
            "holds those of a run:\n" +
@@ -97,7 +99,9 @@ int run_slam(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);
 
-  const SlamResult result = cairn::run_slam(sequence, parameters.slam, executor, *progress);
+  std::optional<Map> start;
+  if (!arguments.map.empty()) start = read_map(arguments.map);
+  const SlamResult result = cairn::run_slam(sequence, parameters.slam, executor, *progress, std::move(start));
   if (result.map.keyframes().empty()) return report_nothing_tracked(result);
   SlamSummary summary;
   summary.threads = executor.threads();

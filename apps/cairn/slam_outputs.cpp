@@ -126,7 +126,7 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
   write_file(folder / "frames.csv", format_frames_csv(result));
-  cairn::write_map(folder / "map", result.map);
+  write_map(folder / "map", result.map, result.covariances);
   write_file(folder / "camera.yaml", format_calibration(sequence.calibration));
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
@@ -135,12 +135,15 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,
                        const SlamResult& result, const SlamParameters& parameters, const SlamOutputs& wanted,
                        const Executor& executor, Progress& progress, SlamSummary& summary) {
-  if (!wanted.cloud && !wanted.octree) return;
+  const auto poses = keyframe_poses(sequence, result);
+  const bool has_keyframe =
+      std::any_of(poses.begin(), poses.end(), [](const auto& p) { return p.has_value(); });
+  if (!has_keyframe || (!wanted.cloud && !wanted.octree)) return;  // none: all was known from the start map
   const Stopwatch watch;
   CloudBuilder cloud_builder(parameters.cloud);
   OccupancyGrid grid(parameters.octree);
   const FusionTargets targets{wanted.cloud ? &cloud_builder : nullptr, wanted.octree ? &grid : nullptr};
-  (void)fuse_sequence(sequence, keyframe_poses(sequence, result), targets, executor, progress);
+  (void)fuse_sequence(sequence, poses, targets, executor, progress);
   if (wanted.cloud) {
     const Cloud cloud = cloud_builder.take();
     summary.cloud_points = static_cast<std::int64_t>(cloud.points.size());

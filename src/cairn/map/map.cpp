@@ -122,4 +122,8 @@ void Map::set_part(KeyframeId id, std::int32_t part) {
   keyframe(id).part = part;
 }
 
+void Map::end_recording() {
+  for (Keyframe& keyframe : keyframes_) keyframe.observed.frame = {};
+}
+
 }  // namespace cairn

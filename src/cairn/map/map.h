@@ -75,6 +75,9 @@ class Map {
   void move(KeyframeId keyframe, const Rigid3& world_from_camera);
   void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);
   void set_part(KeyframeId keyframe, std::int32_t part);
+  /// The recording that the keyframes are of ends here: their FrameIds are valid no more, as the next one
+  /// counts its frames from 0 again.
+  void end_recording();
 
  private:
   template <class AnyId>

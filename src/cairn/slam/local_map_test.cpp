@@ -57,9 +57,21 @@ TEST(LocalMap, covisible_keyframes_share_enough_and_are_others) {
 TEST(LocalMap, landmarks_of_keyframes_come_once_each) {
   const Map map = chain();
   const std::vector<KeyframeId> keyframes = {{1}, {0}};
-  const auto landmarks = landmarks_of(map, keyframes);
+  const auto landmarks = landmarks_of(map, keyframes, 100);
   ASSERT_EQ(landmarks.size(), 40U);
   for (std::int32_t i = 0; i < 40; ++i) EXPECT_EQ(landmarks[static_cast<std::size_t>(i)], LandmarkId{i});
+}
+
+TEST(LocalMap, a_landmark_is_given_up_when_it_is_not_seen_again_in_time) {
+  Map map(test::kRig, "ORB");
+  for (std::int32_t k = 0; k < 5; ++k) (void)map.add_keyframe(test::blank_frame(3), {}, {k - 1}, 0);
+  const LandmarkId lonely = map.add_landmark({0, 0, 0}, {KeyframeId{1}, 0}),
+                   seen_again = map.add_landmark({0, 0, 0}, {KeyframeId{0}, 1});
+  map.add_sighting(seen_again, {KeyframeId{1}, 1});
+  EXPECT_TRUE(is_on_trial_or_confirmed(map, lonely, 3));
+  EXPECT_FALSE(is_on_trial_or_confirmed(map, lonely, 2));
+  EXPECT_TRUE(is_on_trial_or_confirmed(map, seen_again, 0));
+  EXPECT_EQ(landmarks_of(map, std::vector<KeyframeId>{{1}}, 2), (std::vector<LandmarkId>{seen_again}));
 }
 
 TEST(LocalMap, a_neighbourhood_is_the_best_keyframes_and_theirs) {

@@ -146,7 +146,10 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
   require_depth(sequence);
   const Rig rig = rig_of(sequence.calibration, options.depth_noise);
   SlamResult result;
-  if (start) require_same(*start, rig, options);
+  if (start) {
+    require_same(*start, rig, options);
+    start->end_recording();
+  }
   result.map = start ? std::move(*start) : Map(rig, options.features.descriptor);
   Run run(options, executor, result);
   const Frontend frontend(sequence, options);
