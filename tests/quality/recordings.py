@@ -6,20 +6,63 @@ import subprocess
 
 import program
 
-# What ORB-SLAM2 reaches on the same frames is 4.9 cm; the truth itself is good to some centimetres.
-REDKITCHEN_ATE_M = 0.06
+# What ORB-SLAM2 reaches on the same frames; the truths themselves are good to some centimetres and decimetres.
+REDKITCHEN_ATE_M = 0.049
+KITTI_ATE_M = 0.30
+# The truth's speed jumps every third pair, as it is sampled every 10 ms: 0.038 m that no estimate can avoid.
+KITTI_STEP_M = 0.047
+KITTI_STEP_DEG = 0.065
 
 
 class Redkitchen(program.Quality):
     def test_follows_the_camera_the_same_at_any_number_of_threads(self):
         sequence = program.recordings() / "rgbd/redkitchen"
         run = self.figures("slam", sequence, "-o", "run1", "--threads", "1")
-        self.assertGreaterEqual(run["frames"]["tracked"], 0.98 * 600)
+        self.assertGreaterEqual(run["frames"]["tracked"], 0.99 * 600)
         self.assertLessEqual(run["peak_memory_mb"], 1000)
         evaluation = self.figures("evaluate", "run1", sequence)
         self.assertLessEqual(evaluation["ate_rmse_m"], REDKITCHEN_ATE_M)
         self.cairn("slam", sequence, "-o", "run2", "--threads", "2", "--quiet")
         self.assert_same_files("run1", "run2", but=("run.json",))
+
+
+class Kitti(program.Quality):
+    def test_follows_a_drive_the_same_at_any_number_of_threads(self):
+        sequence = program.recordings() / "stereo/kitti_0039"
+        run = self.figures("slam", sequence, "-o", "run1", "--threads", "1")
+        self.assertEqual(run["frames"]["tracked"], 200)
+        self.assertLessEqual(run["peak_memory_mb"], 1500)
+        evaluation = self.figures("evaluate", "run1", sequence)
+        self.assertLessEqual(evaluation["ate_rmse_m"], KITTI_ATE_M)
+        self.assertLessEqual(evaluation["rpe_rmse_m"], KITTI_STEP_M)
+        self.assertLessEqual(evaluation["rpe_rmse_deg"], KITTI_STEP_DEG)
+        self.cairn("slam", sequence, "-o", "run2", "--threads", "2", "--quiet")
+        self.assert_same_files("run1", "run2", but=("run.json",))
+
+
+class Euroc(program.Quality):
+    """Raw pairs, one a second."""
+
+    def test_follows_a_flight(self):
+        sequence = program.recordings() / "stereo/euroc_v101"
+        run = self.figures("slam", sequence, "-o", "run")
+        self.assertGreaterEqual(run["frames"]["tracked"], 97)
+        self.assertLessEqual(run["ate_rmse_m"], 0.05)
+
+
+class GoingOn(program.Quality):
+    def test_a_map_goes_on_with_another_part_of_the_recording(self):
+        sequence = program.recordings() / "rgbd/redkitchen"
+        small = ("--no-cloud", "--no-octree", "--quiet")
+        self.cairn("slam", sequence, "--frames", "0:200", "-o", "first", *small)
+        before = self.figures("info", "first")
+        run = self.figures("slam", sequence, "--frames", "150:350", "--map", "first", "-o", "second", *small[:2])
+        self.assertEqual(run["frames"]["tracked"], 200)
+        self.assertEqual(run["frames"]["elsewhere"], 0)
+        self.assertLessEqual(run["ate_rmse_m"], REDKITCHEN_ATE_M)
+        after = self.figures("info", "second")
+        self.assertEqual(len(after["parts"]), 1)
+        self.assertGreater(after["keyframes"], before["keyframes"])
 
 
 class FiveViews(program.Quality):

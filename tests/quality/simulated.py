@@ -39,6 +39,25 @@ class Room(program.Quality):
         self.assertEqual((info["keyframes"], info["landmarks"]), (run["keyframes"], run["landmarks"]))
 
 
+class Loops(program.Quality):
+    def test_closes_the_loops_of_a_long_walk(self):
+        self.cairn("simulate", "room", "-o", "room", "--frames-count", "1000", "--loops", "2", "--quiet")
+        run = self.figures("slam", "room", "-o", "run", "--no-cloud", "--no-octree")
+        self.assertEqual(run["frames"]["tracked"], 1000)
+        self.assertLessEqual(run["ate_rmse_m"], 0.007)
+        self.assertLessEqual(run["peak_memory_mb"], 1500)
+
+
+class Street(program.Quality):
+    def test_keeps_the_scale_along_a_street(self):
+        self.cairn("simulate", "street", "-o", "street", "--quiet")
+        run = self.figures("slam", "street", "-o", "run")
+        self.assertEqual(run["frames"]["tracked"], 200)
+        evaluation = self.figures("evaluate", "run", "street")
+        self.assertLessEqual(evaluation["ate_rmse_m"], 0.10)
+        self.assertAlmostEqual(evaluation["sim3"]["scale"], 1, delta=0.003)
+
+
 class Small(program.Quality):
     """On a quarter of the pixels, where accuracy is not the question."""
 
