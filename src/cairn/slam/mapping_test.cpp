@@ -99,6 +99,14 @@ TEST(JoinWithNeighbours, leaves_apart_what_lies_apart) {
   EXPECT_EQ(twins.maker.map.landmark_ids().size(), twins.landmarks_before);
 }
 
+/// All in the right direction, none at the depth that the other keyframe measured.
+TEST(JoinWithNeighbours, leaves_apart_what_lies_behind) {
+  Twins twins;
+  Map& map = twins.maker.map;
+  for (const LandmarkId id : map.landmark_ids()) map.move(id, 1.08 * map[id].point_in_world);
+  EXPECT_EQ(join_with_neighbours(map, {1}, {}), 0);
+}
+
 TEST(JoinWithNeighbours, keyframes_without_shared_landmarks_are_no_neighbours) {
   Twins twins(test::aside(0.1), 1000);
   EXPECT_EQ(join_with_neighbours(twins.maker.map, {1}, {}), 0);

@@ -95,6 +95,17 @@ TEST_F(TrackerTest, moves_with_the_map) {
   EXPECT_LT(error(seen, moved * test::aside(0.1)), 2e-3);
 }
 
+TEST_F(TrackerTest, refers_to_the_keyframe_that_the_last_frame_has_become) {
+  const Rigid3 truth = test::aside(0.4);
+  (void)track(truth);
+  const Rigid3 before = tracker_.last().world_from_camera;
+  const KeyframeId second = maker_.add(truth, before);  // the frame that was tracked: number 1
+  tracker_.refer_to(second);
+  EXPECT_EQ(tracker_.reference(), second);
+  EXPECT_LT(motion_norm(tracker_.last().world_from_camera.inverse() * before), 1e-12);
+  EXPECT_EQ(tracker_.last().landmarks, maker_.map[second].landmarks);
+}
+
 TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
   (void)track(test::aside(0.05));
   Map& map = maker_.map;
