@@ -181,9 +181,13 @@ std::string format_run_json(const Sequence& sequence, const SlamResult& result, 
   json["median_inliers"] = counts.median_inliers;
   json["keyframes"] = result.map.keyframe_ids().size();
   const LoopReport& loops = result.loops;
-  json["loops"] = {{"tried", loops.tried},       {"verified", loops.verified},
-                   {"rejected", loops.rejected}, {"joined", loops.joined},
-                   {"closed", loops.closed},     {"parts_joined", loops.parts_joined}};
+  json["loops"] = {{"tried", loops.tried},
+                   {"verified", loops.verified},
+                   {"rejected", loops.rejected},
+                   {"unconfirmed", loops.unconfirmed},
+                   {"joined", loops.joined},
+                   {"closed", loops.closed},
+                   {"parts_joined", loops.parts_joined}};
   json["landmarks"] = result.map.landmark_ids().size();
   json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = summary.ate_m ? nlohmann::ordered_json(*summary.ate_m) : nullptr;
@@ -219,7 +223,7 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
   const LoopReport& loops = result.loops;
   fmt::print("landmarks    {}\n", result.map.landmark_ids().size());
   fmt::print("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
-             loops.closed, loops.joined, loops.rejected, loops.tried);
+             loops.closed, loops.joined, loops.rejected + loops.unconfirmed, loops.tried);
   if (loops.parts_joined > 0) fmt::print("parts        {} joined\n", loops.parts_joined);
   if (summary.ate_m) {
     fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",

@@ -32,6 +32,25 @@ void add_edges(const Map& map, KeyframeId id, PoseGraph& graph) {
   }
 }
 
+KeyframeId keyframe_of(std::int64_t vertex) {
+  return {static_cast<std::int32_t>(vertex)};
+}
+
+std::int32_t part_of(const Map& map, std::int64_t vertex) {
+  return map[keyframe_of(vertex)].part;
+}
+
+/// The edge between the keyframes, or those that know where these were.
+PoseGraph::Edge between_living(const Map& map, const PoseGraph::Edge& edge) {
+  const KeyframeId a = keyframe_of(edge.a), b = keyframe_of(edge.b);
+  const KeyframeId living_a = map[a].erased ? living_parent(map, a) : a;
+  const KeyframeId living_b = map[b].erased ? living_parent(map, b) : b;
+  const Rigid3 living_a_from_a = map.world_from_camera(living_a).inverse() * map.world_from_camera(a);
+  const Rigid3 b_from_living_b = map.world_from_camera(b).inverse() * map.world_from_camera(living_b);
+  return {living_a.value, living_b.value, living_a_from_a * edge.a_from_b * b_from_living_b, edge.information,
+          edge.robust};
+}
+
 }  // namespace
 
 Matrix6d edge_information(const Map& map, KeyframeId keyframe) {
@@ -49,12 +68,11 @@ PoseGraph essential_graph(const Map& map, std::int32_t part, std::span<const Pos
     graph.vertices.push_back({id.value, map[id].world_from_camera});
     add_edges(map, id, graph);
   }
-  const auto is_inside = [&](std::int64_t id) {
-    const Keyframe& keyframe = map[KeyframeId{static_cast<std::int32_t>(id)}];
-    return !keyframe.erased && keyframe.part == part;
-  };
-  for (const PoseGraph::Edge& loop : loops)
-    if (is_inside(loop.a) && is_inside(loop.b)) graph.edges.push_back(loop);
+  for (const PoseGraph::Edge& loop : loops) {
+    const PoseGraph::Edge edge = between_living(map, loop);
+    if (edge.a != edge.b && part_of(map, edge.a) == part && part_of(map, edge.b) == part)
+      graph.edges.push_back(edge);
+  }
   if (!graph.vertices.empty()) graph.fixed = {graph.vertices.front().id};
   return graph;
 }

@@ -10,7 +10,8 @@ namespace cairn {
 
 /// The keyframes of a part, not erased, as vertices where they are now; edges from each to its parent, and
 /// between those that share many landmarks, as their places say now; and the loops given (Mur-Artal et al.
-/// 2015, sec. III-D). The first keyframe is fixed.
+/// 2015, sec. III-D). A loop with an erased keyframe goes to the parent that is left, which knows where it
+/// was. The first keyframe is fixed.
 [[nodiscard]] PoseGraph essential_graph(const Map& map, std::int32_t part,
                                         std::span<const PoseGraph::Edge> loops);
 

@@ -46,7 +46,7 @@ struct FoundPoint {
 /// are nearer.
 [[nodiscard]] double descriptor_limit(const Descriptors& descriptors);
 
-/// Where a point should be seen: nothing behind the camera, outside the image's features, from a direction
+/// Where a point should be seen: nothing behind the camera, from a direction
 /// more than 60 degrees away from that of its appearance, or at more than five times its distance or less
 /// than a fifth. `radius_px` is for the lowest pyramid level and grows with the expected one.
 [[nodiscard]] std::optional<PredictedPlace> predict_place(const FrameView& view,

@@ -106,7 +106,12 @@ bool LoopCloser::close(KeyframeId keyframe) {
     ++report_.joined;
     return false;
   }
-  if (verdict != LoopVerdict::believed || !bend(*loop)) {
+  if (verdict == LoopVerdict::unconfirmed) {
+    ++report_.unconfirmed;
+    return false;
+  }
+  if (verdict == LoopVerdict::believed) --report_.unconfirmed;  // the one before, which it confirms
+  if (verdict == LoopVerdict::implausible || !bend(*loop)) {
     ++report_.rejected;
     return false;
   }

@@ -14,11 +14,12 @@
 namespace cairn {
 
 struct LoopReport {
-  int tried = 0;     ///< candidates that were matched with a keyframe
-  int verified = 0;  ///< of these, held by geometry
-  int rejected = 0;  ///< of these, against what the odometry allows, or never confirmed
-  int joined = 0;    ///< landmarks were joined, as the places agreed already
-  int closed = 0;    ///< the map was bent together
+  int tried = 0;        ///< candidates that were matched with a keyframe
+  int verified = 0;     ///< of these, held by geometry
+  int rejected = 0;     ///< of these, more than the odometry may have drifted by, or against the graph
+  int unconfirmed = 0;  ///< of these, never said again by a second keyframe
+  int joined = 0;       ///< landmarks were joined, as the places agreed already
+  int closed = 0;       ///< the map was bent together
   int parts_joined = 0;
 };
 

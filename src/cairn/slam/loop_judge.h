@@ -39,7 +39,8 @@ class LoopJudge {
   std::optional<Pending> pending_;
 };
 
-/// Length of the way between two keyframes of one part along their parents, metres.
+/// Length of the way from one keyframe to a later one, through those made between in their order, metres.
+/// Steps between parts count nothing.
 [[nodiscard]] double path_length(const Map& map, KeyframeId from, KeyframeId to);
 
 }  // namespace cairn
