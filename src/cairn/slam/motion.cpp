@@ -2,6 +2,7 @@
 #include "cairn/slam/motion.h"
 
 #include <Eigen/Cholesky>
+#include <cmath>
 
 #include "cairn/features/matching.h"
 #include "cairn/geometry/pnp_ransac.h"
@@ -39,13 +40,16 @@ std::uint64_t seed_of(const SlamOptions& options, const ObservedFrame& reference
   return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
 }
 
-/// False where the inliers leave a direction open: all on a line, or all far away.
-bool is_determined(const Matrix6d& information) {
-  constexpr double kMaxRotationStd = 0.02;     // radians
-  constexpr double kMaxTranslationStd = 0.05;  // metres
+/// False where the inliers leave a direction open: all on a line, or all far away. `depth` is a usual one of
+/// theirs, metres.
+bool is_determined(const Matrix6d& information, double depth) {
+  constexpr double kMaxRotationStd = 0.02;  // radians
+  constexpr double kMaxShareOfDepth = 0.01;
+  constexpr double kLeastMaxStd = 0.05;  // metres
+  const double max_translation_std = std::fmax(kLeastMaxStd, kMaxShareOfDepth * depth);
   const Vector6d variances = information.ldlt().solve(Matrix6d::Identity()).diagonal();
   const bool rotation = variances.head<3>().maxCoeff() < kMaxRotationStd * kMaxRotationStd;
-  const bool translation = variances.tail<3>().maxCoeff() < kMaxTranslationStd * kMaxTranslationStd;
+  const bool translation = variances.tail<3>().maxCoeff() < max_translation_std * max_translation_std;
   return rotation && translation && variances.minCoeff() > 0;
 }
 
@@ -88,7 +92,7 @@ Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const Obs
     motion.pairs.push_back(pairs.matches[static_cast<std::size_t>(i)]);
   const bool enough =
       motion.inliers >= options.min_inliers && motion.inliers >= options.min_inlier_share * motion.matches;
-  motion.found = refined.solved && enough && is_determined(refined.information);
+  motion.found = refined.solved && enough && is_determined(refined.information, median_depth(current));
   motion.current_from_reference = refined.camera_from_world;
   motion.information = refined.information;
   motion.norm = motion_norm(motion.current_from_reference);

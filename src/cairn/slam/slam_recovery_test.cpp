@@ -33,7 +33,7 @@ GrayImage blurred(const GrayImage& image, int radius) {
   return result;
 }
 
-class SlamRecovery : public testing::Test {
+class SlowSlamRecovery : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("cairn_recovery_test_" + std::to_string(::getpid()));
@@ -61,7 +61,7 @@ class SlamRecovery : public testing::Test {
   Progress progress_;
 };
 
-TEST_F(SlamRecovery, is_tracked_again_within_ten_frames_each_time) {
+TEST_F(SlowSlamRecovery, is_tracked_again_within_ten_frames_each_time) {
   const Sequence sequence = damaged();
   const SlamResult result = run_slam(sequence, {}, Executor(2), progress_);
   ASSERT_EQ(result.frames.size(), sequence.frames.size());
