@@ -69,6 +69,13 @@ int report_nothing_tracked(const SlamResult& result) {
 /// A map of its first frame only is no answer.
 int warn_if_never_followed(const SlamResult& result) {
   if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
+  if (result.start_keyframes > 0) {
+    fmt::print(
+        stderr,
+        "cairn slam: none of {} frames was recognised in the start map.\n  Is it a map of this place?\n",
+        result.frames.size());
+    return 1;
+  }
   fmt::print(stderr,
              "cairn slam: no motion was found between any two of {} frames: they may lie too far apart, or "
              "the calibration "

@@ -117,6 +117,26 @@ void write_cloud_files(const std::filesystem::path& folder, const Cloud& cloud, 
   write_png(folder / "cloud.png", draw_overview(cloud, path_of(result), voxel_size));
 }
 
+/// Whether the camera was found in the map that the run went on from.
+bool is_start_found(const SlamResult& result) {
+  return result.start_keyframes > 0 && !result.trajectory().empty() &&
+         result.map.part_of({0}) == result.main_part();
+}
+
+void print_start(const SlamResult& result) {
+  if (!is_start_found(result)) {
+    fmt::print(
+        "start map    not recognised: the trajectory is in a world of its own, a new part of the map\n");
+    return;
+  }
+  const auto in_main = [&](const FrameTrack& track) {
+    return track.tracked() && result.map.part_of(*track.reference) == result.main_part();
+  };
+  const auto first = std::find_if(result.frames.begin(), result.frames.end(), in_main);
+  fmt::print("start map    recognised; the trajectory is in its world, from frame {} on\n",
+             first->frame.value);
+}
+
 }  // namespace
 
 void write_slam_files(const std::filesystem::path& folder, const Sequence& sequence, const SlamResult& result,
@@ -139,6 +159,7 @@ void write_dense_files(const std::filesystem::path& folder, const Sequence& sequ
   const bool has_keyframe =
       std::any_of(poses.begin(), poses.end(), [](const auto& p) { return p.has_value(); });
   if (!has_keyframe || (!wanted.cloud && !wanted.octree)) return;  // none: all was known from the start map
+  summary.fused = true;
   const Stopwatch watch;
   CloudBuilder cloud_builder(parameters.cloud);
   OccupancyGrid grid(parameters.octree);
@@ -180,6 +201,9 @@ std::string format_run_json(const Sequence& sequence, const SlamResult& result, 
   json["stopped"] = result.stopped;
   json["median_inliers"] = counts.median_inliers;
   json["keyframes"] = result.map.keyframe_ids().size();
+  json["start_map"] = result.start_keyframes == 0 ? nlohmann::ordered_json(nullptr)
+                      : is_start_found(result)    ? nlohmann::ordered_json("recognised")
+                                                  : nlohmann::ordered_json("not recognised");
   const LoopReport& loops = result.loops;
   json["loops"] = {{"tried", loops.tried},
                    {"verified", loops.verified},
@@ -219,7 +243,10 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
   if (result.stopped)
     fmt::print("stopped      after {} of {} frames; the outputs hold what was done\n", counts.frames,
                sequence.frames.size());
-  fmt::print("keyframes    {}\n", result.map.keyframe_ids().size());
+  if (result.start_keyframes > 0) print_start(result);
+  fmt::print(
+      "keyframes    {}{}\n", result.map.keyframe_ids().size(),
+      result.start_keyframes > 0 ? fmt::format(", {} of this run", result.keyframe_trajectory().size()) : "");
   const LoopReport& loops = result.loops;
   fmt::print("landmarks    {}\n", result.map.landmark_ids().size());
   fmt::print("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
@@ -229,10 +256,10 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
     fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",
                100 * *summary.ate_m, summary.ate_pairs);
   }
-  if (wanted.cloud)
+  if (wanted.cloud && summary.fused)
     fmt::print("cloud        {}/cloud.ply, {} points; a picture of it in cloud.png\n", folder,
                summary.cloud_points);
-  if (wanted.octree)
+  if (wanted.octree && summary.fused)
     fmt::print("octree       {}/octree.ot, {} occupied and {} free voxels\n", folder, summary.occupied_voxels,
                summary.free_voxels);
   fmt::print("time         {:.1f} s on {} threads, {:.1f} frames/s\n", summary.total_seconds, summary.threads,
@@ -243,7 +270,7 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
     fmt::print("    {:<10} {:6.2f} {:8.2f} {:8.2f}\n", name, time.total, 1e3 * time.median,
                1e3 * time.percentile_95);
   }
-  if (wanted.cloud || wanted.octree) fmt::print("    {:<10} {:6.2f}\n", "fusion", summary.fusion_seconds);
+  if (summary.fused) fmt::print("    {:<10} {:6.2f}\n", "fusion", summary.fusion_seconds);
   fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
   fmt::print("written to   {}\n", folder);
   if (sequence.truth) fmt::print("next         cairn evaluate {} {}\n", folder, sequence.folder.string());

@@ -23,6 +23,7 @@ struct SlamOutputs {
 struct SlamSummary {
   std::int64_t cloud_points = 0;
   std::int64_t occupied_voxels = 0, free_voxels = 0;
+  bool fused = false;  ///< cloud and octree, as far as wanted, were written
   double fusion_seconds = 0;
   double total_seconds = 0;
   int threads = 1;

@@ -61,7 +61,7 @@ void FeatureOptions::validate() const {
   }
   if (count < 1)
     throw InputError(
-        {"features", 0, "at least 1 feature per image", fmt::format("{}", count), "The default is 1000."});
+        {"features", 0, "at least 1 feature per image", fmt::format("{}", count), "Leave it out for the default."});
 }
 
 std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {

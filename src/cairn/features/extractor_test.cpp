@@ -102,7 +102,7 @@ TEST(FeatureOptions, name_what_is_wrong) {
             "descriptor: expected a descriptor that can describe ORB keypoints, found 'ROOTSIFT'.\n  Set "
             "descriptor to ORB.");
   EXPECT_EQ(message_of({"ORB", "ORB", 0}),
-            "features: expected at least 1 feature per image, found 0.\n  The default is 1000.");
+            "features: expected at least 1 feature per image, found 0.\n  Leave it out for the default.");
   EXPECT_EQ(message_of({}), "");
 }
 

@@ -33,14 +33,14 @@ std::vector<LandmarkId> Map::landmark_ids() const {
 Rigid3 Map::world_from_camera(KeyframeId id) const {
   Rigid3 ancestor_from_camera;
   while ((*this)[id].erased) {
-    ancestor_from_camera = (*this)[id].parent_from_camera * ancestor_from_camera;
-    id = (*this)[id].parent;
+    ancestor_from_camera = (*this)[id].anchor_from_camera * ancestor_from_camera;
+    id = (*this)[id].anchor;
   }
   return (*this)[id].world_from_camera * ancestor_from_camera;
 }
 
 std::int32_t Map::part_of(KeyframeId id) const {
-  while ((*this)[id].erased) id = (*this)[id].parent;
+  while ((*this)[id].erased) id = (*this)[id].anchor;
   return (*this)[id].part;
 }
 
@@ -101,8 +101,11 @@ void Map::erase(LandmarkId id) {
 
 void Map::erase(KeyframeId id) {
   Keyframe& gone = keyframe(id);
+  require(!gone.erased, "a keyframe is erased once");
   require(gone.parent.valid(), "the first keyframe of a part stays");
-  gone.parent_from_camera = world_from_camera(gone.parent).inverse() * gone.world_from_camera;
+  gone.anchor = gone.parent;
+  while ((*this)[gone.anchor].erased) gone.anchor = (*this)[gone.anchor].anchor;
+  gone.anchor_from_camera = (*this)[gone.anchor].world_from_camera.inverse() * gone.world_from_camera;
   for (const LandmarkId shown : std::vector<LandmarkId>(gone.landmarks))
     if (shown.valid()) remove_sighting(shown, id);
   gone.landmarks.clear();

@@ -31,9 +31,10 @@ struct Keyframe {
   std::vector<LandmarkId> landmarks;  ///< one per feature; not valid where it shows none
   Rigid3 world_from_camera;           ///< where not erased: ask Map::world_from_camera
   KeyframeId parent;                  ///< an earlier keyframe that it was placed by; not valid for a first
-  Rigid3 parent_from_camera;          ///< of an erased one: where it was when it was erased
-  std::int32_t part = 0;              ///< keyframes of different parts have no common world
-  bool erased = false;                ///< redundant: only its place is kept, relative to its parent
+  KeyframeId anchor;                  ///< of an erased one: the ancestor that was left when it was erased,
+  Rigid3 anchor_from_camera;          ///< and where it was then
+  std::int32_t part = 0;              ///< keyframes of different parts have no common world; ask Map::part_of
+  bool erased = false;                ///< redundant: only its place is kept, relative to its anchor
 };
 
 /// Keyframes and the landmarks they show, each knowing the other. Ids are positions and stay valid: what is
@@ -70,7 +71,7 @@ class Map {
   /// `gone` becomes `kept`: its sightings go over, except in keyframes that show both, where they end.
   void merge(LandmarkId gone, LandmarkId kept);
   void erase(LandmarkId landmark);
-  /// Its sightings end; its place stays known relative to its parent.
+  /// Its sightings end; its place stays known relative to its anchor.
   void erase(KeyframeId keyframe);
   void move(KeyframeId keyframe, const Rigid3& world_from_camera);
   void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);

@@ -57,8 +57,10 @@ Matrix6d edge_information(const Map& map, KeyframeId keyframe) {
   // With these the loop edges of a real Kinect recording cost about as much as they have degrees of freedom.
   constexpr double kRotationStd = 0.004;  // radians: 2 px at 525 px focal length
   constexpr double kMinTranslationStd = 0.005;
-  return information_from_std(
-      std::fmax(kMinTranslationStd, kRotationStd * median_depth(map[keyframe].observed)), kRotationStd);
+  constexpr double kUnknownDepth = 10;  // metres: careful in a room, usual in a street
+  const double depth = median_depth(map[keyframe].observed);
+  const double translation_std = kRotationStd * (std::isfinite(depth) ? depth : kUnknownDepth);
+  return information_from_std(std::max(kMinTranslationStd, translation_std), kRotationStd);
 }
 
 PoseGraph essential_graph(const Map& map, std::int32_t part, std::span<const PoseGraph::Edge> loops) {

@@ -57,12 +57,13 @@ struct FoundPoint {
 [[nodiscard]] Appearance nearest_appearance(const Map& map, const Landmark& landmark,
                                             const Eigen::Vector3d& centre_in_world);
 
-/// The landmarks that the view should show, with the windows they should lie in; those in `taken` excepted.
+/// Those of the landmarks (none erased) that the view should show, with the windows they should lie in.
 [[nodiscard]] SearchTargets landmark_targets(const Map& map, std::span<const LandmarkId> landmarks,
                                              const FrameView& view, double radius_px);
 
-/// Matches targets with features by descriptor, within the windows; features with a landmark already
-/// (`occupied`, one per feature; empty: none) are left out. Ordered by target.
+/// Matches targets with features by descriptor, within the windows. A target whose feature shows a landmark
+/// already (`occupied`, one per feature; empty: none) is another of the same thing, and is not found. Ordered
+/// by target.
 [[nodiscard]] std::vector<FoundPoint> find_targets(const SearchTargets& targets, const FrameView& view,
                                                    std::span<const LandmarkId> occupied,
                                                    const MatchOptions& options);

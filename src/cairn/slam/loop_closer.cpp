@@ -19,7 +19,7 @@ struct Attempt {
   bool verified = false;
 };
 
-/// How many of the landmarks that the frame shows at the place found fit its present place, too.
+/// Whether most landmarks that the frame shows at the place found fit its present place, too.
 bool agrees_with_map(const Map& map, KeyframeId keyframe, const TrackedFrame& found) {
   const Rigid3 camera_from_world = map[keyframe].world_from_camera.inverse();
   int seen = 0, fit = 0;
@@ -51,10 +51,16 @@ PoseGraph::Edge edge_of(const Map& map, const LoopHypothesis& loop) {
           edge_information(map, loop.current), false};
 }
 
-/// Whether a graph gives way to a loop by no more than its edges may be wrong.
-bool is_strained(const PoseGraphReport& report, std::size_t edges) {
+/// Whether the keyframes from the candidate to the current one give way to a loop only by more than their
+/// edges may be wrong: all others hold where they are, and would hide it.
+bool is_strained(const PoseGraph& graph, const PoseGraphReport& report, const LoopHypothesis& loop) {
   constexpr double kDegreesOfFreedom = 6;
   constexpr double kMeanSquare = 4.0;  // 2 standard deviations in all edges at once
+  const auto [first, last] = std::minmax(loop.candidate.value, loop.current.value);
+  const auto is_between = [&, first = first, last = last](const PoseGraph::Edge& edge) {
+    return std::min(edge.a, edge.b) >= first && std::max(edge.a, edge.b) <= last;
+  };
+  const auto edges = std::count_if(graph.edges.begin(), graph.edges.end(), is_between);
   return !(report.chi2_after < kMeanSquare * kDegreesOfFreedom * static_cast<double>(edges));
 }
 
@@ -111,32 +117,37 @@ bool LoopCloser::close(KeyframeId keyframe) {
     return false;
   }
   if (verdict == LoopVerdict::believed) --report_.unconfirmed;  // the one before, which it confirms
-  if (verdict == LoopVerdict::implausible || !bend(*loop)) {
+  const bool same_part = map_[loop->candidate].part == map_[loop->current].part;
+  if (verdict == LoopVerdict::implausible || (same_part && !bend(*loop))) {
     ++report_.rejected;
     return false;
   }
+  if (!same_part) join_parts(*loop);
+  edges_.push_back(edge_of(map_, *loop));
   join_landmarks(*loop);
   return true;
 }
 
-bool LoopCloser::bend(const LoopHypothesis& loop) {
+/// The younger part moves: the world is where it began.
+void LoopCloser::join_parts(const LoopHypothesis& loop) {
   const std::int32_t part = map_[loop.current].part, into = map_[loop.candidate].part;
-  if (part != into) {
-    const Rigid3 into_from_current = map_[loop.candidate].world_from_camera * loop.candidate_from_current;
-    move_part(part, into, into_from_current * map_[loop.current].world_from_camera.inverse(), map_);
-    ++report_.parts_joined;
-  } else {
-    std::vector<PoseGraph::Edge> loops = edges_;
-    loops.push_back(edge_of(map_, loop));
-    PoseGraph graph = essential_graph(map_, part, loops);
-    PoseGraphOptions options;
-    options.start = PoseGraphStart::given;
-    const PoseGraphReport report = optimize_pose_graph(graph, options);
-    if (is_strained(report, graph.edges.size())) return false;
-    move_to(graph, map_);
-    ++report_.closed;
-  }
-  edges_.push_back(edge_of(map_, loop));
+  const Rigid3 into_from_part = map_[loop.candidate].world_from_camera * loop.candidate_from_current *
+                                map_[loop.current].world_from_camera.inverse();
+  part > into ? move_part(part, into, into_from_part, map_)
+              : move_part(into, part, into_from_part.inverse(), map_);
+  ++report_.parts_joined;
+}
+
+bool LoopCloser::bend(const LoopHypothesis& loop) {
+  std::vector<PoseGraph::Edge> loops = edges_;
+  loops.push_back(edge_of(map_, loop));
+  PoseGraph graph = essential_graph(map_, map_[loop.current].part, loops);
+  PoseGraphOptions options;
+  options.start = PoseGraphStart::given;
+  const PoseGraphReport report = optimize_pose_graph(graph, options);
+  if (!report.converged || is_strained(graph, report, loop)) return false;
+  move_to(graph, map_);
+  ++report_.closed;
   return true;
 }
 

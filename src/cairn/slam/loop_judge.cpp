@@ -41,13 +41,14 @@ LoopVerdict LoopJudge::judge(const Map& map, const LoopHypothesis& loop) {
   const Rigid3 world_from_current = map.world_from_camera(loop.current);
   const Rigid3 corrected_from_current = map.world_from_camera(loop.candidate) * loop.candidate_from_current;
   const Rigid3 correction = world_from_current.inverse() * corrected_from_current;  // in the camera
-  const std::int32_t part = map.part_of(loop.candidate);
-  const bool same_part = part == map.part_of(loop.current);
+  const std::int32_t part = map.part_of(loop.current), into = map.part_of(loop.candidate);
+  const bool same_part = part == into;
   if (same_part && !is_plausible(map, loop, correction)) return LoopVerdict::implausible;
 
   const std::optional<Pending> before = pending_;
-  pending_ = {loop.current, corrected_from_current * world_from_current.inverse(), part};
-  if (!before || before->part != part || loop.current.value - before->current.value > kConfirmWithin)
+  pending_ = {loop.current, corrected_from_current * world_from_current.inverse(), part, into};
+  if (!before || before->part != part || before->into != into ||
+      loop.current.value - before->current.value > kConfirmWithin)
     return LoopVerdict::unconfirmed;
   const Rigid3 expected = before->corrected_from_world * world_from_current;
   const Rigid3 difference = expected.inverse() * corrected_from_current;

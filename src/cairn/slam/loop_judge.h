@@ -34,7 +34,8 @@ class LoopJudge {
   struct Pending {
     KeyframeId current;
     Rigid3 corrected_from_world;  // how the world near `current` would move
-    std::int32_t part = 0;        // that it would move into
+    std::int32_t part = 0;        // it is in
+    std::int32_t into = 0;        // and would move into
   };
   std::optional<Pending> pending_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/slam/essential_graph.h"
 #include "cairn/slam/mapping.h"
@@ -45,9 +46,10 @@ Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, P
       closer_(options, executor, map, places) {
   for (const Keyframe& keyframe : map.keyframes()) {
     parts_ = std::max(parts_, keyframe.part + 1);
-    parent_from_new_.push_back(keyframe.parent.valid() ? map.world_from_camera(keyframe.parent).inverse() *
-                                                             map.world_from_camera(keyframe.id)
-                                                       : map.world_from_camera(keyframe.id));
+    const Rigid3 world_from_parent =
+        keyframe.parent.valid() ? map.world_from_camera(keyframe.parent) : Rigid3{};
+    odometry_.push_back({world_from_parent.inverse() * map.world_from_camera(keyframe.id),
+                         edge_information(map, keyframe.id)});
   }
 }
 
@@ -59,7 +61,7 @@ std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
   good_lost_frames_ = 0;
   (void)take_over();
   const KeyframeId id = map_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
-  parent_from_new_.emplace_back();
+  odometry_.push_back({{}, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
   places_.add(id.value, map_[id].observed.features.descriptors);
   return id;
@@ -67,9 +69,10 @@ std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
 
 KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent) {
   Stopwatch watch;
-  good_lost_frames_ = 0;
-  parent_from_new_.push_back(map_.world_from_camera(parent).inverse() * tracked.world_from_camera);
+  require(!adjustment_, "the last adjustment has been taken over");
+  const Rigid3 parent_from_new = map_.world_from_camera(parent).inverse() * tracked.world_from_camera;
   const KeyframeId id = add_keyframe(map_, frame, tracked, parent, map_.part_of(parent));
+  odometry_.push_back({parent_from_new, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
   (void)join_with_neighbours(map_, id, options_);
   times_.mapping.push_back(watch.lap());
@@ -120,9 +123,23 @@ void Mapper::keep_covariances(const Window& whole, const BundleReport& report) {
     covariances_[static_cast<std::size_t>(whole.points[p].value)] = covariances[p];
 }
 
+/// Adjustments hold some keyframes of a window, not always the first: the world is where it was made.
+void Mapper::put_back(std::int32_t part) {
+  for (const KeyframeId id : map_.keyframe_ids()) {
+    if (map_[id].part != part) continue;
+    const Rigid3 made = odometry_[static_cast<std::size_t>(id.value)].parent_from_new;
+    if (!map_[id].parent.valid()) move_part(part, part, made * map_[id].world_from_camera.inverse(), map_);
+    return;  // the first of the part
+  }
+}
+
 void Mapper::finish() {
   (void)take_over();
-  if (options_.odometry) return;
+  if (!options_.odometry) adjust_all();
+  for (std::int32_t part = 0; part < parts_; ++part) put_back(part);
+}
+
+void Mapper::adjust_all() {
   covariances_.assign(map_.landmarks().size(), Eigen::Matrix3d::Zero());
   for (std::int32_t part = 0; part < parts_; ++part) adjust_whole(part);
 }
@@ -131,14 +148,14 @@ void Mapper::fill_graphs(PoseGraph& before, PoseGraph& after) const {
   std::vector<Rigid3> by_odometry(map_.keyframes().size());
   for (const Keyframe& keyframe : map_.keyframes()) {
     const auto k = static_cast<std::size_t>(keyframe.id.value);
-    by_odometry[k] = parent_from_new_[k];
+    by_odometry[k] = odometry_[k].parent_from_new;
     if (keyframe.parent.valid())
       by_odometry[k] = by_odometry[static_cast<std::size_t>(keyframe.parent.value)] * by_odometry[k];
     before.vertices.push_back({keyframe.id.value, by_odometry[k]});
     after.vertices.push_back({keyframe.id.value, map_.world_from_camera(keyframe.id)});
     if (keyframe.parent.valid())
-      before.edges.push_back({keyframe.parent.value, keyframe.id.value, parent_from_new_[k],
-                              edge_information(map_, keyframe.id), false});
+      before.edges.push_back({keyframe.parent.value, keyframe.id.value, odometry_[k].parent_from_new,
+                              odometry_[k].information, false});
   }
   before.edges.insert(before.edges.end(), closer_.edges().begin(), closer_.edges().end());
   if (!before.vertices.empty()) before.fixed = {before.vertices.front().id};

@@ -25,6 +25,8 @@ class Mapper {
 
   /// The first keyframe of a part, where the frame has enough depth and none fitted for lost_frames.
   std::optional<KeyframeId> begin_part(const ObservedFrame& frame);
+  /// The camera is not lost.
+  void found() { good_lost_frames_ = 0; }
   /// A keyframe of a tracked frame. No adjustment may be under way.
   KeyframeId add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent);
   /// To be called once for each frame: takes an adjustment over whose time has come. True: the map moved.
@@ -44,7 +46,9 @@ class Mapper {
  private:
   struct Adjustment;
   void start_adjustment(KeyframeId keyframe);
+  void adjust_all();
   void adjust_whole(std::int32_t part);
+  void put_back(std::int32_t part);
   void keep_covariances(const Window& whole, const BundleReport& report);
 
   const SlamOptions& options_;
@@ -55,7 +59,11 @@ class Mapper {
   LoopCloser closer_;
   std::unique_ptr<Adjustment> adjustment_;
   std::vector<Eigen::Matrix3d> covariances_;
-  std::vector<Rigid3> parent_from_new_;  // of each keyframe, when it was made
+  struct Step {
+    Rigid3 parent_from_new;  // of a first keyframe its place in the world
+    Matrix6d information;
+  };
+  std::vector<Step> odometry_;  // of each keyframe, when it was made
   std::int32_t parts_ = 0;
   int good_lost_frames_ = 0;
 };

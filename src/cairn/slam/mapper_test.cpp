@@ -67,6 +67,30 @@ TEST(Mapper, another_part_begins_after_lost_frames_only) {
   EXPECT_FALSE(mapping.begin({})) << "counted anew";
 }
 
+TEST(Mapper, lost_frames_count_in_a_row) {
+  Mapping mapping;
+  mapping.options.lost_frames = 2;
+  (void)mapping.begin({});
+  EXPECT_FALSE(mapping.begin({}));
+  mapping.mapper.found();
+  EXPECT_FALSE(mapping.begin({}));
+  EXPECT_TRUE(mapping.begin({}));
+}
+
+TEST(Mapper, the_world_stays_where_the_first_keyframe_was) {
+  Mapping mapping;
+  const KeyframeId first = *mapping.begin({});
+  KeyframeId last = first;
+  for (int k = 1; k < 4; ++k) {
+    (void)mapping.mapper.take_over();
+    last = mapping.add(test::aside(0.1 * k), test::aside(0.11 * k), last);
+  }
+  (void)mapping.mapper.take_over();
+  mapping.map.move(first, test::aside(0.02));  // as a window may that holds others
+  mapping.mapper.finish();
+  EXPECT_LT(motion_norm(mapping.map[first].world_from_camera), 1e-9);
+}
+
 TEST(Mapper, a_keyframe_shares_landmarks_and_brings_its_own) {
   Mapping mapping;
   const auto first = mapping.begin({});

@@ -73,7 +73,7 @@ bool is_redundant(const Map& map, KeyframeId id, double share) {
   const Keyframe& keyframe = map[id];
   int shown = 0, seen_as_well = 0;
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-    if (!keyframe.landmarks[i].valid()) continue;
+    if (!keyframe.landmarks[i].valid() || map[keyframe.landmarks[i]].sightings.size() < 2) continue;
     ++shown;
     const float sigma = keyframe.observed.features.keypoints[i].sigma_px;
     seen_as_well += is_seen_as_well(map, map[keyframe.landmarks[i]], id, sigma) ? 1 : 0;

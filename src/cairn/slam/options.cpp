@@ -30,6 +30,9 @@ void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
   check(depth.min_depth >= 0, "depth.min", "metres from 0", depth.min_depth);
   check(depth.max_depth > depth.min_depth, "depth.max", "metres above depth.min", depth.max_depth);
   check(positive(stereo.min_depth), "stereo.min_depth", "metres above 0", stereo.min_depth);
+  check(depth.jump_radius >= 0 && depth.jump_radius <= 100, "depth.jump_radius_px", "pixels from 0 to 100",
+        depth.jump_radius);
+  check(positive(depth.jump_sigmas), "depth.jump_sigmas", "standard deviations above 0", depth.jump_sigmas);
   check(stereo.min_disparity_sigmas >= 0, "stereo.min_disparity_sigmas", "standard deviations from 0",
         stereo.min_disparity_sigmas);
   check(stereo.sigma_floor_px >= 0, "stereo.sigma_floor_px", "pixels from 0", stereo.sigma_floor_px);

@@ -65,7 +65,9 @@ class Run {
     if (tracker_.lost()) {
       begin_part(track);
     } else {
-      memory_.remember(result_.frames.size(), tracker_.last_observed(), tracker_.last());
+      mapper_.found();
+      if (!options_.odometry)
+        memory_.remember(result_.frames.size(), tracker_.last_observed(), tracker_.last());
       if (track.decision == KeyframeDecision::keyframe) add_keyframe(track);
     }
     result_.frames.push_back(track);
@@ -150,6 +152,7 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
     require_same(*start, rig, options);
     start->end_recording();
   }
+  result.start_keyframes = start ? start->keyframe_ids().size() : 0;
   result.map = start ? std::move(*start) : Map(rig, options.features.descriptor);
   Run run(options, executor, result);
   const Frontend frontend(sequence, options);

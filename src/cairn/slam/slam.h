@@ -27,7 +27,8 @@ struct SlamResult {
       graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
   StageTimes times;
-  bool stopped = false;  ///< the user stopped before the last frame
+  std::size_t start_keyframes = 0;  ///< of the map that the run went on from; 0: it began with none
+  bool stopped = false;             ///< the user stopped before the last frame
 
   /// The part of the map with the most frames: the one that trajectories and outputs are of.
   [[nodiscard]] std::int32_t main_part() const;
@@ -37,11 +38,11 @@ struct SlamResult {
 };
 
 /// SLAM with an RGB-D or stereo sequence: observe, track, map, close loops, adjust. A frame that cannot be
-/// decoded is reported and skipped. The same bits at any number of threads. InputError for a sequence without
-/// depth or right images and for options out of range.
-/// With a `start` map, of an earlier run, the camera is looked for in it, and the map goes on growing; its
-/// keyframes have no frame in this sequence (FrameId not valid). InputError where it was made with another
-/// camera or another kind of descriptor.
+/// decoded is reported and skipped, but for the first, which is an InputError. The same bits at any number of
+/// threads. InputError for a sequence without depth or right images and for options out of range. With a
+/// `start` map, of an earlier run, the camera is looked for in it, and the map goes on growing; its keyframes
+/// have no frame in this sequence (FrameId not valid). InputError where it was made with another camera or
+/// another kind of descriptor.
 [[nodiscard]] SlamResult run_slam(const Sequence& sequence, const SlamOptions& options,
                                   const Executor& executor, Progress& progress,
                                   std::optional<Map> start = std::nullopt);

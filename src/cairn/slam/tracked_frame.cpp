@@ -81,7 +81,7 @@ bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOpti
   auto found = points_seen(map, tracked);
   const auto more = find_targets(targets, view, tracked.landmarks, matching);
   found.insert(found.end(), more.begin(), more.end());
-  return solve_pose(view, found, options.min_inliers, tracked);
+  return solve_pose(view, found, std::max(options.min_inliers, tracked.inliers / 2), tracked);
 }
 
 }  // namespace cairn

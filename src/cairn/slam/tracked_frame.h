@@ -28,7 +28,8 @@ struct TrackedFrame {
                                      std::size_t features);
 
 /// Looks for what the map around the frame holds besides the landmarks it has already, and solves for the
-/// pose again with all of them. False, and `tracked` as it was, where fewer than min_inliers agree.
+/// pose again with all of them. False, and `tracked` as it was, where fewer than min_inliers agree, or fewer
+/// than half of those before.
 [[nodiscard]] bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
                                  TrackedFrame& tracked);
 

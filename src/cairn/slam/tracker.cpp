@@ -10,6 +10,8 @@
 namespace cairn {
 namespace {
 
+constexpr double kWeakShare = 0.25;  // of the motion that else makes a keyframe
+
 /// The points that a frame's features show: of landmarks, or by depth, in the world.
 std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& observed,
                                           const TrackedFrame& tracked) {
@@ -103,8 +105,10 @@ std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, Fram
 }
 
 bool Tracker::is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const {
-  if (current.inliers < options_.weak_tracking) return true;
   const Rigid3 motion = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
+  const bool is_weak = current.inliers < options_.weak_tracking;
+  // a view that is poor is soon lost; but a camera at rest needs no keyframes, however poor the view
+  if (is_weak && motion_norm(motion) > kWeakShare * options_.keyframe_threshold) return true;
   if (motion_norm(motion) <= options_.keyframe_threshold) return false;
   const double depth = median_depth(frame);
   const double view_change = rotation_angle(motion.rotation) + motion.translation.norm() / depth;
@@ -138,7 +142,10 @@ FrameTrack Tracker::track(ObservedFrame&& frame) {
     current = follow(frame, track);
     if (current) (void)refine_in_map(map_, frame, options_, *current);
   }
-  if (!current && !map_.keyframes().empty()) current = find_again(frame, track);
+  if (!current) {
+    lost_ = true;
+    if (!map_.keyframes().empty()) current = find_again(frame, track);
+  }
   if (current) {
     accept(std::move(frame), std::move(*current), track);
   } else {
@@ -150,7 +157,10 @@ FrameTrack Tracker::track(ObservedFrame&& frame) {
 
 void Tracker::refer_to(KeyframeId keyframe) {
   reference_ = keyframe;
-  if (lost_) motion_known_ = false;
+  if (lost_) {
+    motion_known_ = false;
+    current_from_last_ = {};
+  }
   lost_ = false;
   reference_from_last_ = {};
   follow_map();
