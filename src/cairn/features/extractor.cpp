@@ -60,8 +60,8 @@ void FeatureOptions::validate() const {
          fmt::format("'{}'", descriptor), fmt::format("Set descriptor to {}.", upper(detector))});
   }
   if (count < 1)
-    throw InputError(
-        {"features", 0, "at least 1 feature per image", fmt::format("{}", count), "Leave it out for the default."});
+    throw InputError({"features", 0, "at least 1 feature per image", fmt::format("{}", count),
+                      "Leave it out for the default."});
 }
 
 std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {
