@@ -161,7 +161,8 @@ main() {
   case $command in
     build) build ;;
     test) build_and_test release "$@" ;;
-    asan | tsan) build_and_test "$command" "$@" ;;
+    asan) build_and_test asan "$@" ;;
+    tsan) TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp ignore_noninstrumented_modules=1" build_and_test tsan "$@" ;;
     demo) demo ;;
     bench) bench "$@" ;;
     tidy) tidy "$@" ;;

@@ -12,7 +12,7 @@ struct Id {
   std::int32_t value = -1;
 
   [[nodiscard]] bool valid() const { return value >= 0; }
-  auto operator<=>(const Id&) const = default;
+  auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 
 using FrameId = Id<struct FrameTag>;        ///< position of a frame in its sequence, from 0

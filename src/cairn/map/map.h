@@ -14,7 +14,7 @@ namespace cairn {
 struct Sighting {
   KeyframeId keyframe;
   std::int32_t feature = -1;
-  auto operator<=>(const Sighting&) const = default;
+  auto operator<=>(const Sighting&) const = default;  // NOLINT(modernize-use-nullptr): as Id
 };
 
 struct Landmark {
