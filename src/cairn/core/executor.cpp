@@ -17,8 +17,8 @@
 namespace cairn {
 namespace {
 
-struct Token {
-  std::size_t index = 0;
+/// What is made of one item on its way.
+struct Slot {
   std::shared_ptr<void> item;
   std::exception_ptr failure;  // thrown when its turn comes, as one thread would
 };
@@ -39,35 +39,41 @@ struct Pipeline {
   const std::size_t count;
   const std::function<std::shared_ptr<void>(std::size_t)>& produce;
   const std::function<bool(std::size_t, void*)>& consume;
+  std::vector<Slot> slots;  // of the items under way, no more than there are slots, so that none is shared
   std::size_t next = 0;
   std::atomic<bool> stopped = false;  // written by the last stage, read by the first
   std::exception_ptr failure = nullptr;
   mutable Handover handover = {};
 
-  Token draw(tbb::flow_control& flow) {
-    if (!stopped && next < count) return {next++, nullptr, nullptr};
-    flow.stop();
-    return {};
+  Slot& slot(std::size_t index) { return slots[index % slots.size()]; }
+
+  std::size_t draw(tbb::flow_control& flow) {
+    handover.take();
+    const std::size_t index = stopped ? count : next++;
+    if (index >= count) flow.stop();
+    handover.give();
+    return index;
   }
 
-  Token make(Token token) const {
-    if (stopped) return token;
+  std::size_t make(std::size_t index) {
     handover.take();
+    if (stopped) return index;
     try {
-      token.item = produce(token.index);
+      slot(index) = {produce(index), nullptr};
     } catch (...) {
-      token.failure = std::current_exception();
+      slot(index) = {nullptr, std::current_exception()};
     }
     handover.give();
-    return token;
+    return index;
   }
 
-  void use(const Token& token) {
-    if (stopped) return;
+  void use(std::size_t index) {
     handover.take();
+    if (stopped) return;
     try {
-      if (token.failure) std::rethrow_exception(token.failure);
-      if (!consume(token.index, token.item.get())) stopped = true;
+      const Slot mine = std::exchange(slot(index), {});
+      if (mine.failure) std::rethrow_exception(mine.failure);
+      if (!consume(index, mine.item.get())) stopped = true;
     } catch (...) {
       failure = std::current_exception();
       stopped = true;
@@ -178,17 +184,18 @@ void Executor::run_pipeline(std::size_t count,
     }
     return;
   }
-  Pipeline pipeline{count, produce, consume};
-  pipeline.handover.give();
+  const std::size_t under_way = 2 * static_cast<std::size_t>(threads_);
+  Pipeline pipeline{count, produce, consume, std::vector<Slot>(under_way)};
   using tbb::filter_mode;
+  using Index = std::size_t;
   const auto draw = [&](tbb::flow_control& flow) { return pipeline.draw(flow); };
-  const auto make = [&](Token token) { return pipeline.make(std::move(token)); };
-  const auto use = [&](const Token& token) { pipeline.use(token); };
+  const auto make = [&](Index index) { return pipeline.make(index); };
+  const auto use = [&](Index index) { pipeline.use(index); };
+  pipeline.handover.give();
   arena_->arena.execute([&] {
-    tbb::parallel_pipeline(2 * static_cast<std::size_t>(threads_),
-                           tbb::make_filter<void, Token>(filter_mode::serial_in_order, draw) &
-                               tbb::make_filter<Token, Token>(filter_mode::parallel, make) &
-                               tbb::make_filter<Token, void>(filter_mode::serial_in_order, use));
+    tbb::parallel_pipeline(under_way, tbb::make_filter<void, Index>(filter_mode::serial_in_order, draw) &
+                                          tbb::make_filter<Index, Index>(filter_mode::parallel, make) &
+                                          tbb::make_filter<Index, void>(filter_mode::serial_in_order, use));
   });
   pipeline.handover.take();
   if (pipeline.failure) std::rethrow_exception(pipeline.failure);
