@@ -51,6 +51,7 @@ void bind_tracking(TrackingOptions& tracking, SettingTable& table) {
 void bind_mapping(MappingOptions& mapping, SettingTable& table) {
   table.bind("mapping.view_change", mapping.view_change);
   table.bind("mapping.trial_keyframes", mapping.trial_keyframes);
+  table.bind("mapping.triangulate", mapping.triangulate);
   table.bind("mapping.window_keyframes", mapping.window_keyframes);
   table.bind("mapping.window_fixed", mapping.window_fixed);
   table.bind("mapping.window_lag", mapping.window_lag);

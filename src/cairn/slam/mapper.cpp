@@ -74,6 +74,7 @@ KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, 
   const KeyframeId id = add_keyframe(map_, frame, tracked, parent, map_.part_of(parent));
   odometry_.push_back({parent_from_new, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
+  if (options_.mapping.triangulate) (void)add_landmarks_by_triangulation(map_, id);
   (void)join_with_neighbours(map_, id, options_);
   times_.mapping.push_back(watch.lap());
   if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(id);

@@ -41,7 +41,11 @@ struct TrackingOptions {
 struct MappingOptions {
   /// Radians, plus the way over the median depth: a keyframe is due when the view has changed by as much.
   double view_change = 0.05;
-  int trial_keyframes = 3;    ///< a landmark must be seen again within so many, or it is given up
+  int trial_keyframes = 3;  ///< a landmark must be seen again within so many, or it is given up
+  /// Landmarks of features without depth, where two keyframes see them. Off: on all recordings tried they
+  /// made nothing better, and at one image a second, where the keyframes lie far apart, some are wrong along
+  /// the line.
+  bool triangulate = false;
   int window_keyframes = 12;  ///< that are adjusted together after each new one
   int window_fixed = 20;      ///< others that see the same landmarks and hold them in place
   int window_lag = 3;         ///< frames: the adjustment runs beside tracking and is taken over after so many
