@@ -15,7 +15,7 @@ constexpr double kRadius = 4;
 
 /// A point two metres ahead; what is predicted for it when it was seen from `centre`, 10 px large.
 std::optional<PredictedPlace> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
-  static const ObservedFrame observed;
+  const ObservedFrame observed;
   const FrameView view{test::kRig, observed, {}};
   Appearance appearance;
   appearance.keypoint.size = 10;

@@ -70,9 +70,9 @@ TEST(ObserveRgbd, a_feature_without_usable_depth_stays_without) {
     ASSERT_EQ(observed.observations.size(), all.observations.size());
     for (std::size_t i = 0; i < observed.observations.size(); ++i) {
       const Observation& seen = observed.observations[i];
-      if (seen.u < kWidth / 2 - 1) {
+      if (seen.u < kWidth / 2.0 - 1) {
         EXPECT_FALSE(seen.has_disparity());
-      } else if (seen.u > kWidth / 2 + 30) {
+      } else if (seen.u > kWidth / 2.0 + 30) {
         EXPECT_TRUE(seen.has_disparity());
       }
       EXPECT_EQ(observed.points_in_camera[i].allFinite(), seen.has_disparity());
@@ -82,12 +82,12 @@ TEST(ObserveRgbd, a_feature_without_usable_depth_stays_without) {
 
 TEST(ObserveRgbd, depth_beside_a_jump_is_not_believed) {
   Frame frame = rgbd_frame();
-  for (int v = 0; v < kHeight; ++v) std::fill(frame.depth.row(v), frame.depth.row(v) + kWidth / 2, 1.0F);
+  for (int v = 0; v < kHeight; ++v) std::fill(frame.depth.row(v), frame.depth.row(v) + kWidth / 2.0, 1.0F);
   const SlamOptions options;
   const ObservedFrame observed = Observer(calibration(), options).observe(frame);
   int beside = 0;
   for (const Observation& seen : observed.observations) {
-    const double from_jump = std::abs(seen.u - (kWidth / 2 - 0.5));
+    const double from_jump = std::abs(seen.u - (kWidth / 2.0 - 0.5));
     if (from_jump < options.depth_noise.jump_radius * seen.sigma_px - 1) {
       EXPECT_FALSE(seen.has_disparity()) << seen.u;
       ++beside;
