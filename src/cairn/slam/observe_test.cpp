@@ -82,7 +82,7 @@ TEST(ObserveRgbd, a_feature_without_usable_depth_stays_without) {
 
 TEST(ObserveRgbd, depth_beside_a_jump_is_not_believed) {
   Frame frame = rgbd_frame();
-  for (int v = 0; v < kHeight; ++v) std::fill(frame.depth.row(v), frame.depth.row(v) + kWidth / 2.0, 1.0F);
+  for (int v = 0; v < kHeight; ++v) std::fill(frame.depth.row(v), frame.depth.row(v) + kWidth / 2, 1.0F);
   const SlamOptions options;
   const ObservedFrame observed = Observer(calibration(), options).observe(frame);
   int beside = 0;
