@@ -23,6 +23,7 @@ ROOMS = {
     "features": {"opencv"},
     "map": {"nlohmann"},
     "optimize": {"ceres"},
+    "frontend": set(),
     "slam": set(),
     "survey": set(),
     "localize": set(),

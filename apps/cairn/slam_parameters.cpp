@@ -20,9 +20,9 @@ void bind_sequence(SequenceOptions& sequence, SettingTable& table) {
 }
 
 void bind_slam(SlamOptions& slam, SettingTable& table) {
-  table.bind("detector", slam.features.detector);
-  table.bind("descriptor", slam.features.descriptor);
-  table.bind("features", slam.features.count);
+  table.bind("detector", slam.observer.features.detector);
+  table.bind("descriptor", slam.observer.features.descriptor);
+  table.bind("features", slam.observer.features.count);
   table.bind("good_match_threshold", slam.good_match_threshold);
   table.bind("min_good_match", slam.min_good_match);
   table.bind("min_inliers", slam.min_inliers);
@@ -79,8 +79,8 @@ SettingTable SlamParameters::table() {
   SettingTable table;
   bind_sequence(sequence, table);
   bind_slam(slam, table);
-  bind_depth(slam.depth_noise, table);
-  bind_stereo(slam.stereo_noise, table);
+  bind_depth(slam.observer.depth_noise, table);
+  bind_stereo(slam.observer.stereo_noise, table);
   bind_tracking(slam.tracking, table);
   bind_mapping(slam.mapping, table);
   table.bind("voxel_grid", cloud.voxel_size);

@@ -3,31 +3,9 @@
 
 #include <cstdint>
 
-#include "cairn/features/extractor.h"
+#include "cairn/frontend/observer.h"
 
 namespace cairn {
-
-/// How noisy depth is. A structured-light or stereo sensor measures disparity, so the standard deviation of a
-/// depth z is sigma_disparity_px * z^2 / (fx * baseline): with the defaults 2.3 mm at 1 m and 21 mm at 3 m,
-/// twice what Khoshelham and Elberink 2012 measured for the Kinect, as features sit where depth is worst.
-struct DepthNoise {
-  double baseline = 0.075;           ///< metres, virtual; the Kinect's own
-  double sigma_disparity_px = 0.09;  ///< pixels
-  double min_depth = 0.2;            ///< metres; nearer is noise
-  double jump_radius =
-      3.0;  ///< pixels at the lowest pyramid level: depth must be smooth this far around a feature
-  double jump_sigmas = 8.0;  ///< standard deviations of disparity: more is a jump
-  double max_depth = 8.0;    ///< metres; farther is noise
-};
-
-/// How the left-right matches of a stereo sequence become disparities.
-struct StereoNoise {
-  double min_depth = 0.5;             ///< metres: with the baseline, the largest disparity looked for
-  double min_disparity_sigmas = 4.0;  ///< a disparity of fewer standard deviations says nothing of the depth
-  /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
-  /// disparities of an image alike, which many features do not average out.
-  double sigma_floor_px = 0.5;
-};
 
 /// Looking for what the map holds in the next frame.
 struct TrackingOptions {
@@ -55,9 +33,8 @@ struct MappingOptions {
 /// SLAM with an RGB-D or stereo camera. The names of the older parameters are those of the files that RGB-D
 /// SLAM programs have long read.
 struct SlamOptions {
-  FeatureOptions features{.count = 1500};  ///< room for the views that show little
-  DepthNoise depth_noise;
-  StereoNoise stereo_noise;
+  /// 1500 features: room for the views that show little.
+  ObserverOptions observer{.features = {.count = 1500}, .depth_noise = {}, .stereo_noise = {}};
   TrackingOptions tracking;
   MappingOptions mapping;
   double good_match_threshold = 10;  ///< a match may be this many times worse than the pair's best

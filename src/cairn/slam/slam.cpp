@@ -10,8 +10,8 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
+#include "cairn/frontend/frontend.h"
 #include "cairn/slam/final_poses.h"
-#include "cairn/slam/frontend.h"
 #include "cairn/slam/mapper.h"
 #include "cairn/slam/mapping.h"
 
@@ -38,8 +38,8 @@ void require_same(const Map& start, const Rig& rig, const SlamOptions& options) 
                       fmt::format("fx {} fy {} cx {} cy {} baseline {}", other.fx, other.fy, other.cx,
                                   other.cy, other.baseline),
                       "A map goes on with the camera that it was made with."});
-  if (start.descriptor() != options.features.descriptor)
-    throw InputError({"the map", 0, fmt::format("descriptors {}", options.features.descriptor),
+  if (start.descriptor() != options.observer.features.descriptor)
+    throw InputError({"the map", 0, fmt::format("descriptors {}", options.observer.features.descriptor),
                       start.descriptor(),
                       fmt::format("Run with --set detector={0} --set descriptor={0}.", start.descriptor())});
 }
@@ -146,16 +146,16 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
                     Progress& progress, std::optional<Map> start) {
   options.validate();
   require_depth(sequence);
-  const Rig rig = rig_of(sequence.calibration, options.depth_noise);
+  const Rig rig = rig_of(sequence.calibration, options.observer.depth_noise);
   SlamResult result;
   if (start) {
     require_same(*start, rig, options);
     start->end_recording();
   }
   result.start_keyframes = start ? start->keyframe_ids().size() : 0;
-  result.map = start ? std::move(*start) : Map(rig, options.features.descriptor);
+  result.map = start ? std::move(*start) : Map(rig, options.observer.features.descriptor);
   Run run(options, executor, result);
-  const Frontend frontend(sequence, options);
+  const Frontend frontend(sequence, options.observer);
 
   const auto take = [&](std::size_t index, Arrival&& arrival) {
     result.times.decode.push_back(arrival.decode_seconds);

@@ -4,7 +4,7 @@
 #include <exception>
 #include <string>
 
-#include "cairn/slam/observe.h"
+#include "cairn/frontend/observer.h"
 
 namespace cairn {
 
@@ -19,7 +19,7 @@ struct Arrival {
 /// Decodes and observes frames of a sequence, which must live as long; safe to call from several threads.
 class Frontend {
  public:
-  Frontend(const Sequence& sequence, const SlamOptions& options);
+  Frontend(const Sequence& sequence, const ObserverOptions& options);
   [[nodiscard]] Arrival operator()(std::size_t index) const;
 
  private:

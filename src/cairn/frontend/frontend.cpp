@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/frontend.h"
+#include "cairn/frontend/frontend.h"
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 
 namespace cairn {
 
-Frontend::Frontend(const Sequence& sequence, const SlamOptions& options)
+Frontend::Frontend(const Sequence& sequence, const ObserverOptions& options)
     : loader_(sequence), observer_(sequence.calibration, options) {}
 
 Arrival Frontend::operator()(std::size_t index) const {

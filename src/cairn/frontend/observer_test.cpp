@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/observe.h"
+#include "cairn/frontend/observer.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ int with_depth(const ObservedFrame& observed) {
 }
 
 TEST(ObserveRgbd, depth_becomes_disparity_of_a_virtual_baseline) {
-  const SlamOptions options;
+  const ObserverOptions options;
   const Rig rig = rig_of(calibration(), options.depth_noise);
   EXPECT_EQ(rig.baseline, options.depth_noise.baseline);
   const ObservedFrame observed = Observer(calibration(), options).observe(rgbd_frame());
@@ -83,7 +83,7 @@ TEST(ObserveRgbd, a_feature_without_usable_depth_stays_without) {
 TEST(ObserveRgbd, depth_beside_a_jump_is_not_believed) {
   Frame frame = rgbd_frame();
   for (int v = 0; v < kHeight; ++v) std::fill(frame.depth.row(v), frame.depth.row(v) + kWidth / 2, 1.0F);
-  const SlamOptions options;
+  const ObserverOptions options;
   const ObservedFrame observed = Observer(calibration(), options).observe(frame);
   int beside = 0;
   for (const Observation& seen : observed.observations) {
@@ -155,7 +155,7 @@ TEST(ObserveStereo, measures_the_disparity_of_a_shifted_pair) {
 }
 
 TEST(ObserveStereo, no_disparity_is_better_than_the_calibration) {
-  const SlamOptions options;
+  const ObserverOptions options;
   const ObservedFrame observed = Observer(stereo_calibration(), options).observe(stereo_frame(11.4));
   for (const Observation& seen : observed.observations)
     if (seen.has_disparity()) {
@@ -164,7 +164,7 @@ TEST(ObserveStereo, no_disparity_is_better_than_the_calibration) {
 }
 
 TEST(ObserveStereo, a_disparity_that_may_be_nothing_is_no_depth) {
-  SlamOptions options;
+  ObserverOptions options;
   options.stereo_noise.min_disparity_sigmas = 5;
   options.stereo_noise.sigma_floor_px = 3;  // 15 pixels
   const ObservedFrame observed = Observer(stereo_calibration(), options).observe(stereo_frame(11.4));
@@ -173,7 +173,7 @@ TEST(ObserveStereo, a_disparity_that_may_be_nothing_is_no_depth) {
 }
 
 TEST(ObserveStereo, nearer_than_the_least_depth_is_no_match) {
-  SlamOptions options;
+  ObserverOptions options;
   options.stereo_noise.min_depth = 260 * kBaseline / 8.0;
   const ObservedFrame observed = Observer(stereo_calibration(), options).observe(stereo_frame(11.4));
   for (const Observation& seen : observed.observations)

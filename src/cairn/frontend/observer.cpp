@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/observe.h"
+#include "cairn/frontend/observer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
+#include "cairn/core/parameter.h"
 #include "cairn/features/stereo_matching.h"
 
 namespace cairn {
@@ -62,14 +63,36 @@ void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, Obse
                                                            : none);
 }
 
+void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
+  check_parameter(is_positive(depth.baseline), "depth.virtual_baseline", "metres above 0", depth.baseline);
+  check_parameter(is_positive(depth.sigma_disparity_px), "depth.sigma_disparity_px", "pixels above 0",
+                  depth.sigma_disparity_px);
+  check_parameter(depth.min_depth >= 0, "depth.min", "metres from 0", depth.min_depth);
+  check_parameter(depth.max_depth > depth.min_depth, "depth.max", "metres above depth.min", depth.max_depth);
+  check_parameter(is_positive(stereo.min_depth), "stereo.min_depth", "metres above 0", stereo.min_depth);
+  check_parameter(depth.jump_radius >= 0 && depth.jump_radius <= 100, "depth.jump_radius_px",
+                  "pixels from 0 to 100", depth.jump_radius);
+  check_parameter(is_positive(depth.jump_sigmas), "depth.jump_sigmas", "standard deviations above 0",
+                  depth.jump_sigmas);
+  check_parameter(stereo.min_disparity_sigmas >= 0, "stereo.min_disparity_sigmas",
+                  "standard deviations from 0", stereo.min_disparity_sigmas);
+  check_parameter(stereo.sigma_floor_px >= 0, "stereo.sigma_floor_px", "pixels from 0",
+                  stereo.sigma_floor_px);
+}
+
 }  // namespace
+
+void ObserverOptions::validate() const {
+  features.validate();
+  validate_depth(depth_noise, stereo_noise);
+}
 
 Rig rig_of(const Calibration& calibration, const DepthNoise& noise) {
   const Camera& camera = calibration.camera;
   return {camera.fx, camera.fy, camera.cx, camera.cy, calibration.baseline.value_or(noise.baseline)};
 }
 
-Observer::Observer(const Calibration& calibration, const SlamOptions& options)
+Observer::Observer(const Calibration& calibration, const ObserverOptions& options)
     : camera_(calibration.camera),
       rig_(rig_of(calibration, options.depth_noise)),
       depth_(options.depth_noise),
