@@ -11,16 +11,17 @@ from inputs import file, without
 
 
 def sealed(body):
-    return body + struct.pack("<I", zlib.crc32(body))
+    blocks = b"".join(struct.pack("<I", zlib.crc32(body[i:i + 4096])) for i in range(0, len(body), 4096))
+    return body + blocks + struct.pack("<I", zlib.crc32(blocks))
 
 
 def checksum(contents):
-    return zlib.crc32(contents[:-4])
+    return struct.unpack("<I", contents[-4:])[0]
 
 
 def frame_file(number, size=32):
     """Two features; the second shows the landmark."""
-    header = b"CAIRNFRM" + struct.pack("<IiiIII", 2, number, 5 * number, 2, size, 0)
+    header = b"CAIRNFRM" + struct.pack("<IiiIII", 3, number, 5 * number, 2, size, 0)
     return sealed(header + b"".join(struct.pack(f"<Ii7f{size}s", i, i - 1, 30.0 + i, 20, 10, 1, 0.5, 31, 90, bytes([i] * size))
                                     for i in range(2)))
 
@@ -28,13 +29,13 @@ def frame_file(number, size=32):
 def map_files(size=32, descriptor="ORB"):
     """By name: two keyframes of two parts that see one landmark."""
     frames = [frame_file(number, size) for number in range(2)]
-    points = sealed(b"CAIRNPNT" + struct.pack("<IIQIIQ12d2I", 2, 1, 2, 0, 2, 0, *[0.5] * 3, *[0.0] * 9, 0, 1))
-    rows = b"".join(struct.pack("<ii32s", number, 1, bytes([1] * 32)) for number in range(2))
-    descriptors = sealed(b"CAIRNDSC" + struct.pack("<IIIIQ", 2, 32, 0, 40, 2) + rows)
+    points = sealed(b"CAIRNPNT" + struct.pack("<IIQIIQ12d", 3, 1, 2, 0, 2, 0, *[0.5] * 3, *[0.0] * 9))
+    rows = b"".join(struct.pack("<iiff32s", number, 1, 31, 1, bytes([1] * 32)) for number in range(2))
+    descriptors = sealed(b"CAIRNDSC" + struct.pack("<IIIIQ", 3, 32, 0, 48, 2) + rows)
     poses = b"# t tx ty tz qx qy qz qw\n" + b"".join(b"%d 0 0 0 0 0 0 1\n" % (number + 1) for number in range(2))
-    info = {"format": "cairn keyframe map", "version": 2, "frame": "camera of the first keyframe",
+    info = {"format": "cairn keyframe map", "version": 3, "frame": "camera of the first keyframe",
             "rig": {"fx": 50.0, "fy": 50.0, "cx": 31.5, "cy": 23.5, "baseline": 0.1},
-            "descriptor": {"name": descriptor, "norm": "hamming", "bytes": 32},
+            "image": {"width": 64, "height": 48}, "descriptor": {"name": descriptor, "norm": "hamming", "bytes": 32}, "settings": "",
             "counts": {"keyframes": 2, "features": 4, "landmarks": 1, "sightings": 2},
             "keyframes": [{"file": f"frames/{number:06}.{descriptor.lower()}", "frame": 5 * number, "stamp_ns": 10**9 * (number + 1),
                            "part": number, "crc32": checksum(frame)} for number, frame in enumerate(frames)],
@@ -69,6 +70,7 @@ def cut(name, count):
 MAP = map_folder()
 FIGURES = ("keyframes    2, 2 features each", "parts        2, of 1, 1 keyframes", "landmarks    1\n", "sightings    2, 2.00 per landmark",
            "descriptors  ORB (Hamming, 32 bytes)")
+VERSION_REMEDY = "Make the map again, or read it with the version of cairn that made it."
 REMEDY = "Copy the map again from where it was made, or make it again."
 
 CASES = [
@@ -83,21 +85,21 @@ CASES = [
     Case("map without descriptors", "info map", ("map/Descriptor.bin: expected a readable file",), (MAP, without("map/Descriptor.bin"))),
     Case("map without a frame", "info map", ("map/frames/000001.orb: expected a readable file",), (MAP, without("map/frames/000001.orb"))),
     Case("empty map.json", "info map", ("map/map.json:1: expected JSON, found something else", REMEDY), (MAP, file("map/map.json", ""))),
-    Case("map.json of an older version", "info map", ("map/map.json: expected version 2 of the format, found version 1",),
-         (MAP, file("map/map.json", '{"format": "cairn keyframe map", "version": 1}'))),
-    Case("frame of another version", "info map", ("map/frames/000000.orb: expected version 2 of the format, found version 6",),
+    Case("map.json of an older version", "info map", ("map/map.json: expected version 3 of the format, found version 2", VERSION_REMEDY),
+         (MAP, file("map/map.json", '{"format": "cairn keyframe map", "version": 2}'))),
+    Case("frame of another version", "info map", ("map/frames/000000.orb: expected version 3 of the format, found version 7",),
          (MAP, flipped("map/frames/000000.orb", 8))),
     Case("frame that is none", "info map", ("map/frames/000000.orb: expected a file that begins with CAIRNFRM",), (MAP, flipped("map/frames/000000.orb", 0))),
     Case("damaged frame", "info map", ("map/frames/000000.orb: expected contents that fit their CRC-32", REMEDY), (MAP, flipped("map/frames/000000.orb", 50))),
     Case("damaged points", "info map", ("map/Point.bin: expected contents that fit their CRC-32",), (MAP, flipped("map/Point.bin", 40))),
     Case("points cut short", "info map", ("map/Point.bin: expected contents that fit their CRC-32", "cut short"), (MAP, cut("map/Point.bin", 9))),
-    Case("descriptors cut short", "info map", ("map/Descriptor.bin: expected at least 16 bytes, found 4",), (MAP, cut("map/Descriptor.bin", 112))),
+    Case("descriptors cut short", "info map", ("map/Descriptor.bin: expected at least 16 bytes, found 4",), (MAP, cut("map/Descriptor.bin", 132))),
     Case("damaged poses", "info map", ("map/poses.txt: expected contents that fit their CRC-32",), (MAP, flipped("map/poses.txt", -3))),
     Case("descriptors of another kind", "info map", ("map/frames/000000.orb: expected descriptors of 32 bytes", "found 61 bytes"), (map_folder(size=61),)),
     Case("descriptor that cairn does not have", "info map", ("map/map.json: expected one of the descriptors ORB", "found 'BRIEF'"),
          (map_folder(descriptor="BRIEF"),)),
     Case("frames of two maps", "info map", ("map/Point.bin: expected the file that map.json names, by its CRC-32",),
-         (MAP, file("map/Point.bin", sealed(b"CAIRNPNT" + struct.pack("<IIQ", 2, 0, 0))))),
+         (MAP, file("map/Point.bin", sealed(b"CAIRNPNT" + struct.pack("<IIQ", 3, 0, 0))))),
 ]
 
 if __name__ == "__main__":

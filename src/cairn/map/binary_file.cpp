@@ -3,25 +3,86 @@
 
 #include <fmt/format.h>
 
-#include "cairn/core/checksum.h"
+#include <algorithm>
+#include <utility>
+
 #include "cairn/core/error.h"
-#include "cairn/core/file.h"
 
 namespace cairn {
 namespace {
 
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
 
+/// Whether what follows the first `body` bytes of the file is their seal.
+bool is_sealed(std::string_view file, std::size_t body) {
+  BlockSeal seal;
+  seal.add(file.substr(0, body));
+  return std::move(seal).finish() == file.substr(body);
+}
+
 }  // namespace
 
-BinaryWriter::BinaryWriter(const BinaryKind& kind) : contents_(kind.magic) {
+void BlockSeal::close_block() {
+  const std::uint32_t checksum = block_.value();
+  checksums_.append(reinterpret_cast<const char*>(&checksum), sizeof checksum);
+  block_ = {};
+  in_block_ = 0;
+}
+
+void BlockSeal::add(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::string_view piece = bytes.substr(0, kBlockBytes - in_block_);
+    block_.add(piece);
+    in_block_ += piece.size();
+    bytes.remove_prefix(piece.size());
+    if (in_block_ == kBlockBytes) close_block();
+  }
+}
+
+std::string BlockSeal::finish() && {
+  if (in_block_ > 0) close_block();
+  const std::uint32_t of_all = crc32(checksums_);
+  checksums_.append(reinterpret_cast<const char*>(&of_all), sizeof of_all);
+  return std::move(checksums_);
+}
+
+std::optional<std::uint64_t> sealed_bytes(std::uint64_t file_bytes) {
+  if (file_bytes < kChecksumBytes) return {};
+  const std::uint64_t rest = file_bytes - kChecksumBytes;
+  const std::uint64_t blocks = (rest + kBlockBytes + kChecksumBytes - 1) / (kBlockBytes + kChecksumBytes);
+  const std::uint64_t body = rest - std::min(rest, blocks * kChecksumBytes);
+  if ((body + kBlockBytes - 1) / kBlockBytes != blocks) return {};
+  return body;
+}
+
+BinaryWriter::BinaryWriter(const BinaryKind& kind) {
   require(kind.magic.size() == 8, "a binary file begins with eight letters");
+  put_bytes(kind.magic.data(), kind.magic.size());
   put(kind.version);
 }
 
 std::string BinaryWriter::finish() && {
-  put(crc32(contents_));
-  return std::move(contents_);
+  BlockSeal seal;
+  seal.add(bytes_);
+  bytes_ += std::move(seal).finish();
+  return std::move(bytes_);
+}
+
+BinaryFileWriter::BinaryFileWriter(const std::filesystem::path& path, const BinaryWriter& begin)
+    : file_(path) {
+  write(begin.bytes());
+}
+
+void BinaryFileWriter::write(std::string_view bytes) {
+  seal_.add(bytes);
+  file_.write(bytes);
+}
+
+std::uint32_t BinaryFileWriter::finish() {
+  const std::string end = std::move(seal_).finish();
+  file_.write(end);
+  file_.commit();
+  return stored_checksum(end);
 }
 
 std::uint32_t stored_checksum(std::string_view file) {
@@ -36,18 +97,21 @@ BinaryReader::BinaryReader(const std::filesystem::path& path, const BinaryKind& 
   const std::size_t least = kind.magic.size() + sizeof(kind.version) + kChecksumBytes;
   if (contents_.size() < least)
     fail(fmt::format("at least {} bytes", least), fmt::format("{}", contents_.size()));
+  end_ = contents_.size() - kChecksumBytes;  // until the seal was looked at
   if (!contents_.starts_with(kind.magic))
     fail(fmt::format("a file that begins with {}", kind.magic), "another beginning");
   next_ = kind.magic.size();
   if (const auto version = get<std::uint32_t>(); version != kind.version)
-    fail(fmt::format("version {} of the format", kind.version), fmt::format("version {}", version));
-  const std::string_view body = std::string_view(contents_).substr(0, contents_.size() - kChecksumBytes);
-  if (crc32(body) != stored_checksum(contents_))
+    throw InputError({path_.string(), 0, fmt::format("version {} of the format", kind.version),
+                      fmt::format("version {}", version), std::string(kVersionRemedy)});
+  const auto body = sealed_bytes(contents_.size());
+  if (!body || !is_sealed(std::string_view(contents_), *body))
     fail("contents that fit their CRC-32", "others: the file is damaged or cut short");
+  end_ = *body;
 }
 
 std::size_t BinaryReader::left() const {
-  return contents_.size() - kChecksumBytes - next_;
+  return end_ - next_;
 }
 
 const char* BinaryReader::get_bytes(std::size_t count) {

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <type_traits>
 
+#include "cairn/core/checksum.h"
+#include "cairn/core/file.h"
+
 namespace cairn {
 
 /// Beginning of every binary file of a map: eight letters and the version of the layout.
@@ -21,11 +24,36 @@ struct BinaryKind {
 /// What to do about a map that cannot be read.
 constexpr std::string_view kMapRemedy = "Copy the map again from where it was made, or make it again.";
 
-/// A binary file in memory: magic, version, little-endian values without padding, and their CRC-32.
-class BinaryWriter {
- public:
-  explicit BinaryWriter(const BinaryKind& kind);
+/// Remedy for a map of a version that this program does not read.
+constexpr std::string_view kVersionRemedy =
+    "Make the map again, or read it with the version of cairn that made it.";
 
+/// Bytes of a binary file that one checksum covers, so that little has to be read to check a part.
+constexpr std::size_t kBlockBytes = 4096;
+
+/// The end of a binary file: CRC-32 of each block of kBlockBytes, of which the last may be shorter, and the
+/// CRC-32 of these checksums.
+class BlockSeal {
+ public:
+  /// The next bytes of the file, in pieces of any size.
+  void add(std::string_view bytes);
+  /// What has to follow them.
+  [[nodiscard]] std::string finish() &&;
+
+ private:
+  void close_block();
+
+  std::string checksums_;
+  Crc32 block_;
+  std::size_t in_block_ = 0;
+};
+
+/// How many bytes of a binary file come before its seal; nothing where no file has this size.
+[[nodiscard]] std::optional<std::uint64_t> sealed_bytes(std::uint64_t file_bytes);
+
+/// Little-endian values without padding.
+class ByteWriter {
+ public:
   template <class Value>
   void put(Value value) {
     static_assert(std::is_arithmetic_v<Value>);
@@ -33,20 +61,41 @@ class BinaryWriter {
     put_bytes(&value, sizeof(Value));
   }
   void put_bytes(const void* bytes, std::size_t count) {
-    contents_.append(static_cast<const char*>(bytes), count);
+    bytes_.append(static_cast<const char*>(bytes), count);
   }
-  /// The whole file, with the CRC-32 of all before it as its last four bytes.
-  [[nodiscard]] std::string finish() &&;
+  [[nodiscard]] const std::string& bytes() const { return bytes_; }
 
- private:
-  std::string contents_;
+ protected:
+  std::string bytes_;  // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
 };
 
-/// The CRC-32 that a file made by BinaryWriter ends with.
+/// A binary file in memory: magic, version, values, and the seal.
+class BinaryWriter : public ByteWriter {
+ public:
+  explicit BinaryWriter(const BinaryKind& kind);
+  /// The whole file.
+  [[nodiscard]] std::string finish() &&;
+};
+
+/// The same for a file that does not fit into memory: it appears under its name when it is finished.
+class BinaryFileWriter {
+ public:
+  /// `begin` has magic, version and the first values.
+  BinaryFileWriter(const std::filesystem::path& path, const BinaryWriter& begin);
+  void write(std::string_view bytes);
+  /// Returns the checksum that the file ends with.
+  std::uint32_t finish();
+
+ private:
+  AtomicFile file_;
+  BlockSeal seal_;
+};
+
+/// The checksum that a sealed file ends with.
 [[nodiscard]] std::uint32_t stored_checksum(std::string_view file);
 
-/// Reads what BinaryWriter made, in the same order. Magic, version and CRC-32 are checked before anything is
-/// handed out. InputError names the file.
+/// Reads what BinaryWriter made, in the same order. Magic, version and checksums are checked before anything
+/// is handed out. InputError names the file.
 class BinaryReader {
  public:
   BinaryReader(const std::filesystem::path& path, const BinaryKind& kind);
@@ -74,6 +123,7 @@ class BinaryReader {
   std::filesystem::path path_;
   std::string contents_;
   std::size_t next_ = 0;
+  std::size_t end_ = 0;  // of what is before the seal
 };
 
 }  // namespace cairn

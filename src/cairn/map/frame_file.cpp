@@ -90,7 +90,7 @@ Observation as_stored(const Observation& seen) {
 }
 
 std::string format_frame_file(KeyframeId number, const ObservedFrame& observed,
-                              const std::vector<LandmarkId>& landmarks, const DescriptorKind& kind) {
+                              std::span<const LandmarkId> landmarks, const DescriptorKind& kind) {
   const auto& [keypoints, descriptors] = observed.features;
   const std::size_t count = observed.observations.size();
   require(keypoints.size() == count && descriptors.count() == count && landmarks.size() == count,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct FrameFile {
 
 /// The contents of the file. The features are described as `kind` says, which matters where there are none.
 [[nodiscard]] std::string format_frame_file(KeyframeId number, const ObservedFrame& observed,
-                                            const std::vector<LandmarkId>& landmarks,
+                                            std::span<const LandmarkId> landmarks,
                                             const DescriptorKind& kind);
 
 /// Keyframe `number` of the map in `folder`, as `info` announces it. Its keypoints have no response.

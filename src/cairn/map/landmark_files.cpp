@@ -14,11 +14,10 @@ namespace {
 
 constexpr BinaryKind kPointKind{"CAIRNPNT", kMapVersion};
 constexpr BinaryKind kDescriptorKind{"CAIRNDSC", kMapVersion};
-constexpr std::uint64_t kLandmarkBytes = 112;  // number, count, first; 3 coordinates, 9 of the covariance
-constexpr std::uint64_t kSightingBytes = 8;    // keyframe, feature; the descriptor follows
+constexpr std::size_t kSightingBytes = 16;  // keyframe, feature, size, sigma; the descriptor follows
 
 /// Of a descriptor that is filled up, so that all records begin at a multiple of 8.
-std::uint64_t padded(std::uint64_t bytes) {
+std::size_t padded(std::size_t bytes) {
   return (bytes + 7) / 8 * 8;
 }
 
@@ -40,17 +39,6 @@ bool is_covariance(const Eigen::Matrix3d& matrix) {
   return !matrix.hasNaN() && matrix == matrix.transpose() && matrix.diagonal().minCoeff() >= 0;
 }
 
-/// The landmark without its sightings, which are `count` from `first` on.
-void put_landmark(const StoredLandmark& landmark, std::uint32_t number, std::uint64_t first,
-                  BinaryWriter& writer) {
-  writer.put(number);
-  writer.put(static_cast<std::uint32_t>(landmark.descriptors.size()));
-  writer.put(first);
-  for (const double coordinate : landmark.point_in_world) writer.put(coordinate);
-  for (const double entry : landmark.covariance.reshaped()) writer.put(entry);
-}
-
-/// A landmark with room for its sightings; they are in order, behind all landmarks.
 StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const MapInfo& info,
                             BinaryReader& reader) {
   StoredLandmark landmark;
@@ -62,7 +50,8 @@ StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const Map
   if (count == 0 || count > info.sightings - first)
     reader.fail(fmt::format("1 to {} sightings of landmark {}", info.sightings - first, number),
                 fmt::format("{}", count));
-  landmark.descriptors.resize(count);
+  landmark.first_row = first;
+  landmark.sightings = count;
   for (double& coordinate : landmark.point_in_world) coordinate = reader.get<double>();
   for (double& entry : landmark.covariance.reshaped()) entry = reader.get<double>();
   if (!landmark.point_in_world.allFinite() || !is_covariance(landmark.covariance))
@@ -72,59 +61,59 @@ StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const Map
 
 }  // namespace
 
-std::string format_point_file(const std::vector<StoredLandmark>& landmarks) {
-  std::uint64_t sightings = 0;
-  for (const StoredLandmark& landmark : landmarks) sightings += landmark.descriptors.size();
-  BinaryWriter writer(kPointKind);
-  writer.put(static_cast<std::uint32_t>(landmarks.size()));
-  writer.put(sightings);
-  std::uint64_t first = 0;
-  for (std::size_t i = 0; i < landmarks.size(); ++i) {
-    require(landmarks[i].point_in_world.allFinite() && is_covariance(landmarks[i].covariance),
-            "a landmark's point is finite, its covariance symmetric");
-    put_landmark(landmarks[i], static_cast<std::uint32_t>(i), first, writer);
-    first += landmarks[i].descriptors.size();
-  }
-  for (const StoredLandmark& landmark : landmarks)
-    for (const std::uint32_t descriptor : landmark.descriptors) writer.put(descriptor);
-  return std::move(writer).finish();
+std::size_t sighting_bytes(const DescriptorKind& kind) {
+  return kSightingBytes + padded(kind.bytes);
 }
 
-std::string format_descriptor_file(const StoredSightings& stored, const DescriptorKind& kind) {
-  require(stored.descriptors.count() == stored.sightings.size(), "each sighting has a descriptor");
+BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t sightings) {
+  BinaryWriter writer(kPointKind);
+  writer.put(landmarks);
+  writer.put(sightings);
+  return writer;
+}
+
+BinaryWriter begin_descriptor_file(const DescriptorKind& kind, std::uint64_t sightings) {
   BinaryWriter writer(kDescriptorKind);
   writer.put(kind.bytes);
   writer.put(static_cast<std::uint32_t>(kind.norm));
-  writer.put(static_cast<std::uint32_t>(kSightingBytes + padded(kind.bytes)));
-  writer.put(static_cast<std::uint64_t>(stored.sightings.size()));
-  for (std::size_t i = 0; i < stored.sightings.size(); ++i) {
-    writer.put(stored.sightings[i].keyframe.value);
-    writer.put(stored.sightings[i].feature);
-    writer.put_bytes(stored.descriptors.row(i), stored.descriptors.stride());
-  }
-  return std::move(writer).finish();
+  writer.put(static_cast<std::uint32_t>(sighting_bytes(kind)));
+  writer.put(sightings);
+  return writer;
+}
+
+void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWriter& writer) {
+  require(landmark.point_in_world.allFinite() && is_covariance(landmark.covariance),
+          "a landmark's point is finite, its covariance symmetric");
+  writer.put(number);
+  writer.put(landmark.sightings);
+  writer.put(landmark.first_row);
+  for (const double coordinate : landmark.point_in_world) writer.put(coordinate);
+  for (const double entry : landmark.covariance.reshaped()) writer.put(entry);
+}
+
+void put_sighting(const Sighting& sighting, const Keypoint& keypoint, const std::uint8_t* descriptor,
+                  const DescriptorKind& kind, ByteWriter& writer) {
+  writer.put(sighting.keyframe.value);
+  writer.put(sighting.feature);
+  writer.put(keypoint.size);
+  writer.put(keypoint.sigma_px);
+  writer.put_bytes(descriptor, kind.bytes);
+  constexpr std::uint64_t kZeros = 0;
+  writer.put_bytes(&kZeros, padded(kind.bytes) - kind.bytes);
 }
 
 std::vector<StoredLandmark> read_point_file(const std::filesystem::path& folder, const MapInfo& info) {
   BinaryReader reader = open_announced(folder, info, kPointFile, kPointKind);
   expect_count(reader, info.landmarks, reader.get<std::uint32_t>(), "landmarks");
   expect_count(reader, info.sightings, reader.get<std::uint64_t>(), "sightings");
-  reader.expect_bytes(info.landmarks, kLandmarkBytes, info.sightings, sizeof(std::uint32_t));
+  reader.expect_bytes(info.landmarks, kLandmarkBytes);
   std::vector<StoredLandmark> landmarks;
   std::uint64_t first = 0;
   for (std::uint32_t i = 0; i < info.landmarks; ++i) {
     landmarks.push_back(get_landmark(i, first, info, reader));
-    first += landmarks.back().descriptors.size();
+    first += landmarks.back().sightings;
   }
   expect_count(reader, info.sightings, first, "sightings of all landmarks");
-  for (StoredLandmark& landmark : landmarks) {
-    for (std::uint32_t& descriptor : landmark.descriptors) {
-      descriptor = reader.get<std::uint32_t>();
-      if (descriptor >= info.sightings)
-        reader.fail(fmt::format("a row below {} of {}", info.sightings, kDescriptorFile),
-                    fmt::format("{}", descriptor));
-    }
-  }
   return landmarks;
 }
 
@@ -132,7 +121,7 @@ StoredSightings read_descriptor_file(const std::filesystem::path& folder, const 
   BinaryReader reader = open_announced(folder, info, kDescriptorFile, kDescriptorKind);
   get_descriptor_kind(info.descriptor, reader);
   const std::uint32_t bytes = info.descriptor.bytes;
-  const std::uint64_t stride = kSightingBytes + padded(bytes);
+  const std::size_t stride = sighting_bytes(info.descriptor);
   expect_count(reader, stride, reader.get<std::uint32_t>(), "bytes a record");
   expect_count(reader, info.sightings, reader.get<std::uint64_t>(), "sightings");
   reader.expect_bytes(info.sightings, stride);
@@ -143,6 +132,8 @@ StoredSightings read_descriptor_file(const std::filesystem::path& folder, const 
     if (!keyframe.valid() || static_cast<std::size_t>(keyframe.value) >= info.keyframes.size())
       reader.fail(fmt::format("a keyframe below {} in row {}", info.keyframes.size(), i),
                   fmt::format("{}", keyframe.value));
+    (void)reader.get<float>();  // size and sigma, which frames/ has, too
+    (void)reader.get<float>();
     std::memcpy(stored.descriptors.row(i), reader.get_bytes(padded(bytes)), bytes);
   }
   return stored;

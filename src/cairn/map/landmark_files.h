@@ -16,7 +16,8 @@ namespace cairn {
 struct StoredLandmark {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the point, square metres; 0: not known
-  std::vector<std::uint32_t> descriptors;                ///< of its sightings: rows of Descriptor.bin
+  std::uint64_t first_row = 0;  ///< of Descriptor.bin: there and in the next rows are its sightings
+  std::uint32_t sightings = 0;
 };
 
 /// Descriptor.bin: row i shows sighting i.
@@ -25,9 +26,18 @@ struct StoredSightings {
   Descriptors descriptors;
 };
 
-/// Landmark i of `landmarks` has number i.
-[[nodiscard]] std::string format_point_file(const std::vector<StoredLandmark>& landmarks);
-[[nodiscard]] std::string format_descriptor_file(const StoredSightings& stored, const DescriptorKind& kind);
+/// Bytes of a row of Descriptor.bin, and of a record of Point.bin.
+[[nodiscard]] std::size_t sighting_bytes(const DescriptorKind& kind);
+constexpr std::size_t kLandmarkBytes = 112;
+
+/// Beginnings of the files for so many landmarks and sightings; then come the records, in order.
+[[nodiscard]] BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t sightings);
+[[nodiscard]] BinaryWriter begin_descriptor_file(const DescriptorKind& kind, std::uint64_t sightings);
+/// The landmark's point is finite, its covariance symmetric and without a NaN, its variances not negative.
+void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWriter& writer);
+/// `descriptor` has the kind's bytes.
+void put_sighting(const Sighting& sighting, const Keypoint& keypoint, const std::uint8_t* descriptor,
+                  const DescriptorKind& kind, ByteWriter& writer);
 
 /// Point.bin or Descriptor.bin of the map in `folder`, as `info` announces it; the indices lie in their
 /// ranges. InputError where the file is missing, damaged, of another version, not the one that was announced,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/core/id.h"
+#include "cairn/map/map_header.h"
 #include "cairn/map/observed_frame.h"
 
 namespace cairn {
@@ -42,11 +43,18 @@ struct Keyframe {
 class Map {
  public:
   Map() = default;
-  Map(const Rig& rig, std::string descriptor) : rig_(rig), descriptor_(std::move(descriptor)) {}
+  explicit Map(MapHeader header) : header_(std::move(header)) {}
+  /// Of images of unknown size.
+  Map(const Rig& rig, std::string descriptor) {
+    header_.rig = rig;
+    header_.descriptor.name = std::move(descriptor);
+  }
 
-  [[nodiscard]] const Rig& rig() const { return rig_; }
+  /// Norm and size of the descriptors are what the keyframes have, whatever it says of them.
+  [[nodiscard]] const MapHeader& header() const { return header_; }
+  [[nodiscard]] const Rig& rig() const { return header_.rig; }
   /// Name of the descriptors' kind, as in FeatureOptions.
-  [[nodiscard]] const std::string& descriptor() const { return descriptor_; }
+  [[nodiscard]] const std::string& descriptor() const { return header_.descriptor.name; }
   /// By id, erased ones included.
   [[nodiscard]] const std::vector<Keyframe>& keyframes() const { return keyframes_; }
   [[nodiscard]] const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -88,8 +96,7 @@ class Map {
   [[nodiscard]] Keyframe& keyframe(KeyframeId id) { return keyframes_[index(id)]; }
   [[nodiscard]] Landmark& landmark(LandmarkId id) { return landmarks_[index(id)]; }
 
-  Rig rig_;
-  std::string descriptor_ = "ORB";
+  MapHeader header_;
   std::vector<Keyframe> keyframes_;
   std::vector<Landmark> landmarks_;
 };

@@ -42,9 +42,12 @@ Map small_map() {
   return map;
 }
 
-void expect_checksum(const std::string& bytes) {
+/// Of a file of one block.
+void expect_seal(const std::string& bytes) {
+  EXPECT_EQ(at<std::uint32_t>(bytes, bytes.size() - 8),
+            crc32(std::string_view(bytes).substr(0, bytes.size() - 8)));
   EXPECT_EQ(at<std::uint32_t>(bytes, bytes.size() - 4),
-            crc32(std::string_view(bytes).substr(0, bytes.size() - 4)));
+            crc32(std::string_view(bytes).substr(bytes.size() - 8, 4)));
 }
 
 TEST(MapFile, frames_have_the_documented_layout) {
@@ -52,9 +55,9 @@ TEST(MapFile, frames_have_the_documented_layout) {
   write_map(folder.path(), small_map());
   const std::string bytes = read_file(folder.path() / "frames/000001.orb");
   constexpr std::size_t kHeader = 32, kRecord = 39;
-  ASSERT_EQ(bytes.size(), kHeader + 2 * kRecord + 4);
+  ASSERT_EQ(bytes.size(), kHeader + 2 * kRecord + 8);
   EXPECT_EQ(bytes.substr(0, 8), "CAIRNFRM");
-  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 2U);                    // version
+  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 3U);                    // version
   EXPECT_EQ(at<std::int32_t>(bytes, 12), 1);                     // keyframe
   EXPECT_EQ(at<std::int32_t>(bytes, 16), 8);                     // frame
   EXPECT_EQ(at<std::uint32_t>(bytes, 20), 2U);                   // features
@@ -68,7 +71,7 @@ TEST(MapFile, frames_have_the_documented_layout) {
   const auto disparity = at<float>(bytes, kHeader + kRecord + 16);
   EXPECT_NE(disparity, disparity);  // unknown: NaN
   EXPECT_EQ(bytes.substr(kHeader + kRecord + 36, 3), "\x10\x11\x12");
-  expect_checksum(bytes);
+  expect_seal(bytes);
 }
 
 TEST(MapFile, points_have_the_documented_layout) {
@@ -76,36 +79,36 @@ TEST(MapFile, points_have_the_documented_layout) {
   const Eigen::Matrix3d covariance = (Eigen::Matrix3d() << 9, 1, 2, 1, 4, 3, 2, 3, 8).finished();
   write_map(folder.path(), small_map(), std::vector{covariance});
   const std::string bytes = read_file(folder.path() / "Point.bin");
-  ASSERT_EQ(bytes.size(), 24U + 112 + 2 * 4 + 4);
+  ASSERT_EQ(bytes.size(), 24U + 112 + 8);
   EXPECT_EQ(bytes.substr(0, 8), "CAIRNPNT");
-  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 2U);   // version
+  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 3U);   // version
   EXPECT_EQ(at<std::uint32_t>(bytes, 12), 1U);  // landmarks
   EXPECT_EQ(at<std::uint64_t>(bytes, 16), 2U);  // sightings
   EXPECT_EQ(at<std::uint32_t>(bytes, 24), 0U);  // number
   EXPECT_EQ(at<std::uint32_t>(bytes, 28), 2U);  // its sightings
-  EXPECT_EQ(at<std::uint64_t>(bytes, 32), 0U);  // where they begin
+  EXPECT_EQ(at<std::uint64_t>(bytes, 32), 0U);  // row of the first
   const double doubles[] = {0.5, -1, 2, 9, 1, 2, 1, 4, 3, 2, 3, 8};
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(at<double>(bytes, 40 + 8 * i), doubles[i]) << i;
-  EXPECT_EQ(at<std::uint32_t>(bytes, 136), 0U);
-  EXPECT_EQ(at<std::uint32_t>(bytes, 140), 1U);
-  expect_checksum(bytes);
+  expect_seal(bytes);
 }
 
 TEST(MapFile, descriptors_have_the_documented_layout) {
   const TestFolder folder;
   write_map(folder.path(), small_map());
   const std::string bytes = read_file(folder.path() / "Descriptor.bin");
-  ASSERT_EQ(bytes.size(), 32U + 2 * 16 + 4);
+  ASSERT_EQ(bytes.size(), 32U + 2 * 24 + 8);
   EXPECT_EQ(bytes.substr(0, 8), "CAIRNDSC");
-  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 2U);    // version
+  EXPECT_EQ(at<std::uint32_t>(bytes, 8), 3U);    // version
   EXPECT_EQ(at<std::uint32_t>(bytes, 12), 3U);   // bytes of a descriptor
   EXPECT_EQ(at<std::uint32_t>(bytes, 16), 0U);   // Hamming
-  EXPECT_EQ(at<std::uint32_t>(bytes, 20), 16U);  // stride
+  EXPECT_EQ(at<std::uint32_t>(bytes, 20), 24U);  // stride
   EXPECT_EQ(at<std::uint64_t>(bytes, 24), 2U);   // rows
-  EXPECT_EQ(at<std::int32_t>(bytes, 48), 1);     // keyframe
-  EXPECT_EQ(at<std::int32_t>(bytes, 52), 1);     // feature
-  EXPECT_EQ(bytes.substr(56, 8), std::string("\x10\x11\x12\0\0\0\0\0", 8));
-  expect_checksum(bytes);
+  EXPECT_EQ(at<float>(bytes, 40), 31);           // size
+  EXPECT_EQ(at<float>(bytes, 44), 1.2F);         // sigma
+  EXPECT_EQ(at<std::int32_t>(bytes, 56), 1);     // keyframe
+  EXPECT_EQ(at<std::int32_t>(bytes, 60), 1);     // feature
+  EXPECT_EQ(bytes.substr(72, 8), std::string("\x10\x11\x12\0\0\0\0\0", 8));
+  expect_seal(bytes);
 }
 
 TEST(MapFile, texts_are_as_documented) {

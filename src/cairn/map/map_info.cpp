@@ -28,22 +28,14 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The end of map.json, after `body`.
-std::string seal(std::string_view body) {
-  return fmt::format("  \"crc32\": {}\n}}\n", crc32(body));
+/// As JSON has it, with its quotes.
+std::string quoted(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string format_keyframes(const MapInfo& info) {
-  std::string text;
-  KeyframeId number{0};
-  for (const KeyframeEntry& entry : info.keyframes) {
-    text += fmt::format(
-        "{}    {{\"file\": \"{}\", \"frame\": {}, \"stamp_ns\": {}, \"part\": {}, \"crc32\": {}}}",
-        text.empty() ? "\n" : ",\n", frame_file_name(number, info.descriptor.name), entry.frame.value,
-        entry.stamp_ns, entry.part, entry.checksum);
-    ++number.value;
-  }
-  return text;
+std::string format_origin(const GeodeticOrigin& origin) {
+  return fmt::format("{{\"latitude_deg\": {}, \"longitude_deg\": {}, \"height\": {}}}", origin.latitude_deg,
+                     origin.longitude_deg, origin.height);
 }
 
 std::string format_checksums(const MapInfo& info) {
@@ -63,8 +55,7 @@ class MapInfoReader {
     check_format(json);
     check_seal();
     MapInfo info;
-    info.rig = read_rig(member(json, "rig"));
-    info.descriptor = read_descriptor(member(json, "descriptor"));
+    read_header(json, info);
     read_keyframes(json, info);
     read_counts(member(json, "counts"), info);
     for (const auto& [name, checksum] : member(json, "files").items())
@@ -126,13 +117,36 @@ class MapInfoReader {
     if (const std::string format = text_member(json, "format"); format != kFormat)
       fail(fmt::format("the format '{}'", kFormat), fmt::format("'{}'", format));
     if (const auto version = whole_member<std::uint32_t>(json, "version"); version != kMapVersion)
-      fail(fmt::format("version {} of the format", kMapVersion), fmt::format("version {}", version));
+      throw InputError({path_.string(), 0, fmt::format("version {} of the format", kMapVersion),
+                        fmt::format("version {}", version), std::string(kVersionRemedy)});
   }
 
   void check_seal() const {
     const std::string_view body = std::string_view(text_).substr(0, text_.rfind("  \"crc32\""));
-    if (text_.substr(body.size()) != seal(body))
+    if (text_.substr(body.size()) != format_map_info_seal(crc32(body)))
       fail("contents that fit their CRC-32", "others: the file is damaged or was changed");
+  }
+
+  void read_header(const Json& json, MapHeader& header) const {
+    header.world = text_member(json, "frame");
+    if (json.contains("origin")) header.origin = read_origin(json["origin"]);
+    header.rig = read_rig(member(json, "rig"));
+    const Json& image = member(json, "image");
+    header.width = whole_member<std::int32_t>(image, "width");
+    header.height = whole_member<std::int32_t>(image, "height");
+    if (header.width < 0 || header.height < 0)
+      fail("a width and height of 0 or more", fmt::format("{} and {}", header.width, header.height));
+    header.descriptor = read_descriptor(member(json, "descriptor"));
+    header.settings = text_member(json, "settings");
+  }
+
+  GeodeticOrigin read_origin(const Json& json) const {
+    const GeodeticOrigin origin{number_member(json, "latitude_deg"), number_member(json, "longitude_deg"),
+                                number_member(json, "height")};
+    if (!(std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180))
+      fail("a latitude within 90 degrees and a longitude within 180",
+           fmt::format("{} and {}", origin.latitude_deg, origin.longitude_deg));
+    return origin;
   }
 
   Rig read_rig(const Json& json) const {
@@ -216,21 +230,37 @@ bool is_known_descriptor(const std::string& name) {
                      [&](const std::string& known) { return lower(known) == lower(name); });
 }
 
-std::string format_map_info(const MapInfo& info) {
+std::string format_map_info_begin(const MapInfo& info, std::size_t keyframes) {
   const Rig& rig = info.rig;
-  std::string body = fmt::format(
-      "{{\n  \"format\": \"{}\",\n  \"version\": {},\n  \"frame\": \"camera of the first keyframe\",\n",
-      kFormat, kMapVersion);
-  body += fmt::format("  \"rig\": {{\"fx\": {}, \"fy\": {}, \"cx\": {}, \"cy\": {}, \"baseline\": {}}},\n",
+  std::string text = fmt::format("{{\n  \"format\": \"{}\",\n  \"version\": {},\n  \"frame\": {},\n", kFormat,
+                                 kMapVersion, quoted(info.world));
+  if (info.origin) text += fmt::format("  \"origin\": {},\n", format_origin(*info.origin));
+  text += fmt::format("  \"rig\": {{\"fx\": {}, \"fy\": {}, \"cx\": {}, \"cy\": {}, \"baseline\": {}}},\n",
                       rig.fx, rig.fy, rig.cx, rig.cy, rig.baseline);
-  body += fmt::format("  \"descriptor\": {{\"name\": \"{}\", \"norm\": \"{}\", \"bytes\": {}}},\n",
+  text += fmt::format("  \"image\": {{\"width\": {}, \"height\": {}}},\n", info.width, info.height);
+  text += fmt::format("  \"descriptor\": {{\"name\": \"{}\", \"norm\": \"{}\", \"bytes\": {}}},\n",
                       info.descriptor.name, to_string(info.descriptor.norm), info.descriptor.bytes);
-  body += fmt::format(
+  text += fmt::format("  \"settings\": {},\n", quoted(info.settings));
+  text += fmt::format(
       "  \"counts\": {{\"keyframes\": {}, \"features\": {}, \"landmarks\": {}, \"sightings\": {}}},\n",
-      info.keyframes.size(), info.features, info.landmarks, info.sightings);
-  body += fmt::format("  \"keyframes\": [{}\n  ],\n  \"files\": {{{}}},\n", format_keyframes(info),
-                      format_checksums(info));
-  return body + seal(body);
+      keyframes, info.features, info.landmarks, info.sightings);
+  return text + "  \"keyframes\": [";
+}
+
+std::string format_keyframe_entry(KeyframeId number, const KeyframeEntry& entry,
+                                  const std::string& descriptor) {
+  return fmt::format(
+      "{}    {{\"file\": \"{}\", \"frame\": {}, \"stamp_ns\": {}, \"part\": {}, \"crc32\": {}}}",
+      number.value == 0 ? "\n" : ",\n", frame_file_name(number, descriptor), entry.frame.value,
+      entry.stamp_ns, entry.part, entry.checksum);
+}
+
+std::string format_map_info_end(const MapInfo& info) {
+  return fmt::format("\n  ],\n  \"files\": {{{}}},\n", format_checksums(info));
+}
+
+std::string format_map_info_seal(std::uint32_t checksum) {
+  return fmt::format("  \"crc32\": {}\n}}\n", checksum);
 }
 
 MapInfo read_map_info(const std::filesystem::path& path) {

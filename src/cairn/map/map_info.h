@@ -9,14 +9,13 @@
 #include <vector>
 
 #include "cairn/core/id.h"
-#include "cairn/features/features.h"
-#include "cairn/geometry/rig.h"
 #include "cairn/map/binary_file.h"
+#include "cairn/map/map_header.h"
 
 namespace cairn {
 
 /// Version of the layout of all files of a map.
-constexpr std::uint32_t kMapVersion = 2;
+constexpr std::uint32_t kMapVersion = 3;
 
 /// Names of files in the folder of a map, see docs/map_format.md.
 constexpr const char* kMapInfoFile = "map.json";
@@ -24,13 +23,6 @@ constexpr const char* kPosesFile = "poses.txt";
 constexpr const char* kUvlistFile = "uvlist.txt";
 constexpr const char* kPointFile = "Point.bin";
 constexpr const char* kDescriptorFile = "Descriptor.bin";
-
-/// What the descriptors of a map are called, how they are compared, and how long one is.
-struct DescriptorKind {
-  std::string name;
-  Norm norm = Norm::hamming;
-  std::uint32_t bytes = 0;
-};
 
 /// "hamming" or "l2".
 [[nodiscard]] std::string_view to_string(Norm norm);
@@ -48,15 +40,13 @@ void get_descriptor_kind(const DescriptorKind& kind, BinaryReader& reader);
 
 /// Contents of map.json: what the other files hold, and their checksums, by which files of two maps in one
 /// folder are found out.
-struct MapInfo {
-  Rig rig;
-  DescriptorKind descriptor;
+struct MapInfo : MapHeader {
   std::vector<KeyframeEntry> keyframes;
   std::uint32_t landmarks = 0;
   std::uint64_t features = 0;   ///< of all keyframes
   std::uint64_t sightings = 0;  ///< of all landmarks
-  /// By name, of the files beside map.json: of a text the CRC-32 of its bytes, of a binary file the one that
-  /// it ends with.
+  /// By name, of the files beside map.json: of a text the CRC-32 of its bytes, of a binary file the checksum
+  /// that it ends with.
   std::map<std::string, std::uint32_t> checksums;
 
   /// Nothing where map.json does not name the file.
@@ -69,8 +59,14 @@ struct MapInfo {
 /// Whether cairn has descriptors of that name; case does not matter.
 [[nodiscard]] bool is_known_descriptor(const std::string& name);
 
-/// The text of map.json; its last member is the CRC-32 of all before it.
-[[nodiscard]] std::string format_map_info(const MapInfo& info);
+/// map.json in three pieces, so that it can be written while the keyframes pass by: what is before them (of
+/// `info` all but keyframes and checksums), one keyframe, and what comes after them, without the seal.
+[[nodiscard]] std::string format_map_info_begin(const MapInfo& info, std::size_t keyframes);
+[[nodiscard]] std::string format_keyframe_entry(KeyframeId number, const KeyframeEntry& entry,
+                                                const std::string& descriptor);
+[[nodiscard]] std::string format_map_info_end(const MapInfo& info);
+/// The seal: the last member of map.json, which is the CRC-32 of all before it.
+[[nodiscard]] std::string format_map_info_seal(std::uint32_t checksum);
 
 /// InputError where the file is missing, no JSON, of another version, damaged, lacks something, or
 /// contradicts itself.

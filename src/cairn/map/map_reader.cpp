@@ -39,7 +39,7 @@ fs::path require_map_folder(const fs::path& folder) {
   std::error_code error;
   throw InputError({folder.string(), 0, "the folder of a map, or of a run with one in its map/",
                     fs::exists(folder, error) ? "none of its files" : "nothing of that name",
-                    "Check the path; cairn slam makes a map."});
+                    "Check the path; cairn map and cairn slam make maps."});
 }
 
 void check_text(const fs::path& folder, const MapInfo& info, const char* name) {
@@ -94,7 +94,7 @@ MapFiles read_files(const fs::path& folder) {
 }
 
 /// The feature of a sighting shows this landmark, and looks as Descriptor.bin says.
-void check_sighting(const MapFiles& files, std::size_t landmark, std::uint32_t row) {
+void check_sighting(const MapFiles& files, std::size_t landmark, std::size_t row) {
   const Sighting& sighting = files.sightings.sightings[row];
   const FrameFile& frame = files.frames[static_cast<std::size_t>(sighting.keyframe.value)];
   const auto feature = static_cast<std::size_t>(sighting.feature);
@@ -113,7 +113,8 @@ void check_sighting(const MapFiles& files, std::size_t landmark, std::uint32_t r
 void check_sightings(const MapFiles& files) {
   for (std::size_t i = 0; i < files.landmarks.size(); ++i) {
     KeyframeId before;
-    for (const std::uint32_t row : files.landmarks[i].descriptors) {
+    const StoredLandmark& landmark = files.landmarks[i];
+    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.sightings; ++row) {
       check_sighting(files, i, row);
       const KeyframeId keyframe = files.sightings.sightings[row].keyframe;
       if (keyframe <= before)
@@ -157,14 +158,14 @@ std::vector<KeyframeId> choose_parents(const MapFiles& files) {
 
 /// Of files that were checked; they are taken apart.
 Map build_map(MapFiles&& files) {
-  Map map(files.info.rig, files.info.descriptor.name);
+  Map map(static_cast<const MapHeader&>(files.info));
   const std::vector<KeyframeId> parents = choose_parents(files);
   for (std::size_t i = 0; i < files.frames.size(); ++i)
     map.add_keyframe(std::move(files.frames[i].observed), files.poses[i], parents[i],
                      files.info.keyframes[i].part);
   for (const StoredLandmark& landmark : files.landmarks) {
     LandmarkId id;
-    for (const std::uint32_t row : landmark.descriptors) {
+    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.sightings; ++row) {
       const Sighting& sighting = files.sightings.sightings[row];
       if (id.valid())
         map.add_sighting(id, sighting);

@@ -159,7 +159,7 @@ TEST(MapReader, says_where_there_is_no_map) {
   const TestFolder folder;
   EXPECT_EQ(message_for(folder.path()),
             "MAP: expected the folder of a map, or of a run with one in its map/, found none of its files.\n"
-            "  Check the path; cairn slam makes a map.");
+            "  Check the path; cairn map and cairn slam make maps.");
   EXPECT_NE(message_for(folder.path() / "no").find("found nothing of that name"), std::string::npos);
 }
 

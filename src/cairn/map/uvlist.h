@@ -2,17 +2,20 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
+#include <cstdint>
 #include <string>
 
-#include "cairn/map/map.h"
+#include "cairn/map/indicators.h"
 
 namespace cairn {
 
-/// The text of uvlist.txt: a table of the landmarks, one row each in their order, for people and scripts.
-/// docs/map_format.md has the columns. `covariances` are one for each of `landmarks`. Observations count as
-/// they are stored, so that a map that was read gives the same table.
-[[nodiscard]] std::string format_uvlist(const Map& map, std::span<const LandmarkId> landmarks,
-                                        std::span<const Eigen::Matrix3d> covariances);
+/// First line of uvlist.txt, a table of the landmarks, one row each, for people and scripts.
+/// docs/map_format.md has the columns.
+[[nodiscard]] std::string uvlist_header();
+
+/// The row of landmark `number`. `covariance` is of the point, square metres.
+[[nodiscard]] std::string format_uvlist_row(std::uint32_t number, const Eigen::Vector3d& point_in_world,
+                                            const Eigen::Matrix3d& covariance,
+                                            const LandmarkIndicators& indicators);
 
 }  // namespace cairn

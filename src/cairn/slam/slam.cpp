@@ -109,6 +109,15 @@ class Run {
   FrameMemory memory_;
 };
 
+MapHeader map_header(const Sequence& sequence, const SlamOptions& options) {
+  MapHeader header;
+  header.rig = rig_of(sequence.calibration, options.observer.depth_noise);
+  header.width = sequence.calibration.camera.width;
+  header.height = sequence.calibration.camera.height;
+  header.descriptor.name = options.observer.features.descriptor;
+  return header;
+}
+
 }  // namespace
 
 std::int32_t SlamResult::main_part() const {
@@ -153,7 +162,7 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
     start->end_recording();
   }
   result.start_keyframes = start ? start->keyframe_ids().size() : 0;
-  result.map = start ? std::move(*start) : Map(rig, options.observer.features.descriptor);
+  result.map = start ? std::move(*start) : Map(map_header(sequence, options));
   Run run(options, executor, result);
   const Frontend frontend(sequence, options.observer);
 
