@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/optimize/landmark_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,21 +18,29 @@ struct LandmarkState {
   LandmarkSums sums{};
 };
 
-PointSums equations_of(const LandmarkSums& sums) {
-  const double* h = sums.hessian;
-  PointSums equations;
-  equations.information << h[0], h[1], h[2], h[1], h[3], h[4], h[2], h[4], h[5];
-  equations.gradient = Eigen::Vector3d(sums.gradient[0], sums.gradient[1], sums.gradient[2]);
-  return equations;
-}
+/// A symmetric matrix xx, xy, xz, yy, yz, zz by its cofactors, which are the inverse times the determinant.
+class Symmetric {
+ public:
+  explicit Symmetric(const double* a)
+      : trace_(a[0] + a[3] + a[5]),
+        cofactors_{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3],
+                   a[0] * a[5] - a[2] * a[2], a[1] * a[2] - a[0] * a[4], a[0] * a[3] - a[1] * a[1]},
+        determinant_(a[0] * cofactors_[0] + a[1] * cofactors_[1] + a[2] * cofactors_[2]) {}
 
-/// Nothing where the sums do not determine the point.
-std::optional<Eigen::Vector3d> step_from(const LandmarkSums& sums, double lambda) {
-  PointSums equations = equations_of(sums);
-  if (!equations.determine_point()) return std::nullopt;
-  equations.information.diagonal() *= 1.0 + lambda;
-  return Eigen::Vector3d(-equations.information.inverse() * equations.gradient);
-}
+  [[nodiscard]] bool determines_point() const { return cairn::determines_point(trace_, determinant_); }
+  [[nodiscard]] Eigen::Vector3d solve(const double* right) const {
+    const double* c = cofactors_;
+    const double share = 1.0 / determinant_, x = share * right[0], y = share * right[1], z = share * right[2];
+    return {c[0] * x + c[1] * y + c[2] * z, c[1] * x + c[3] * y + c[4] * z, c[2] * x + c[4] * y + c[5] * z};
+  }
+  [[nodiscard]] Eigen::Matrix3d inverse() const {
+    const double* c = cofactors_;
+    return Eigen::Matrix3d{{c[0], c[1], c[2]}, {c[1], c[3], c[4]}, {c[2], c[4], c[5]}} / determinant_;
+  }
+
+ private:
+  double trace_, cofactors_[6], determinant_;
+};
 
 /// One minimisation over the sightings that are packed.
 class Descent {
@@ -43,85 +50,121 @@ class Descent {
       : kernels_(kernels), options_(options), packed_(packed), errors_(errors) {}
 
   LandmarkFitStatus run(const Eigen::Vector3d& start) {
-    state_ = evaluate(kernels_.linearise, start);
-    if (!std::isfinite(state_.sums.squared_error)) return LandmarkFitStatus::not_converged;
+    evaluate(kernels_.linearise, start);
+    accept();
+    if (!std::isfinite(state().sums.squared_error)) return LandmarkFitStatus::not_converged;
     begin();
     LandmarkFitStatus status = LandmarkFitStatus::not_converged;
     while (status == LandmarkFitStatus::not_converged && iterations_ < options_.max_iterations)
       status = step();
-    if (!errors_are_of_state_) state_ = evaluate(kernels_.expand, state_.point);
+    if (!errors_are_of_state_) {
+      evaluate(kernels_.expand, state().point);
+      accept();
+    }
     return status;
   }
 
   /// The squared errors are those of this state.
-  [[nodiscard]] const LandmarkState& state() const { return state_; }
+  [[nodiscard]] const LandmarkState& state() const { return states_[current_]; }
   [[nodiscard]] int iterations() const { return iterations_; }
 
  private:
-  [[nodiscard]] LandmarkState evaluate(LandmarkExpansion* expansion, const Eigen::Vector3d& point) {
-    LandmarkState at{.point = point};
-    expansion(packed_.blocks(), packed_.block_count(), at.point.data(), &at.sums, errors_.of_pixels.data(),
+  [[nodiscard]] LandmarkState& other() { return states_[1 - current_]; }
+
+  void evaluate(LandmarkExpansion* expansion, const Eigen::Vector3d& point) {
+    other().point = point;
+    expansion(packed_.blocks(), packed_.block_count(), point.data(), &other().sums, errors_.of_pixels.data(),
               errors_.of_all.data());
+    errors_are_of_state_ = false;
+  }
+
+  void accept() {
+    current_ = 1 - current_;
     errors_are_of_state_ = true;
-    return at;
   }
 
   /// To the solution of the linear equations, where it is better than the start.
   void begin() {
-    if (const auto linear_step = step_from(state_.sums, 0); linear_step && try_step(*linear_step)) return;
-    state_ = evaluate(kernels_.expand, state_.point);
+    const Symmetric information(state().sums.information);
+    if (information.determines_point() && try_step(-information.solve(state().sums.gradient))) return;
+    evaluate(kernels_.expand, state().point);
+    accept();
   }
 
   /// Whether it did not raise the cost.
-  [[nodiscard]] bool try_step(const Eigen::Vector3d& step) {
+  bool try_step(const Eigen::Vector3d& step) {
     constexpr double kRounding = 1e-12;  // relative error of the cost
-    const LandmarkState moved = evaluate(kernels_.expand, state_.point + step);
-    errors_are_of_state_ = moved.sums.squared_error <= state_.sums.squared_error * (1 + kRounding);
-    if (errors_are_of_state_) state_ = moved;
-    return errors_are_of_state_;
+    evaluate(kernels_.expand, state().point + step);
+    if (!(other().sums.squared_error <= state().sums.squared_error * (1 + kRounding))) return false;
+    accept();
+    return true;
   }
 
   [[nodiscard]] LandmarkFitStatus step() {
-    const auto step = step_from(state_.sums, lambda_);
+    const auto step = lambda_ == 0.0 ? newton_step() : damped_step();
     if (!step) return LandmarkFitStatus::undetermined;
     ++iterations_;
-    const bool damped = lambda_ > 0.0, negligible = !damped && is_negligible(*step);
-    const bool last = negligible || (!damped && distance_after(step->norm()) < options_.converged_step);
+    if (lambda_ == 0.0 && is_last(*step)) return LandmarkFitStatus::ok;
     const bool accepted = try_step(*step);
-    if (negligible || (last && accepted)) return LandmarkFitStatus::ok;
-    last_length_ = accepted && !damped ? step->norm() : 0.0;
+    last_length_ = accepted && lambda_ == 0.0 ? step->norm() : 0.0;
     constexpr double kFirstLambda = 1e-3, kLeastLambda = 1e-6, kRaise = 10, kLower = 0.1;
     lambda_ = accepted ? kLower * lambda_ : std::max(kFirstLambda, kRaise * lambda_);
     if (lambda_ < kLeastLambda) lambda_ = 0.0;
     return LandmarkFitStatus::not_converged;
   }
 
-  /// Shorter than converged_step or, where the point is so badly determined that rounding moves it further, a
-  /// hundred millionth of its standard deviation.
-  [[nodiscard]] bool is_negligible(const Eigen::Vector3d& step) const {
-    constexpr double kDeviations = 1e-8;
-    const double* gradient = state_.sums.gradient;
-    const double squared_deviations =
-        -(step[0] * gradient[0] + step[1] * gradient[1] + step[2] * gradient[2]);
-    return step.norm() < options_.converged_step || squared_deviations < kDeviations * kDeviations;
+  /// With the second derivatives of the errors, unless the cost is not convex.
+  [[nodiscard]] std::optional<Eigen::Vector3d> newton_step() const {
+    const LandmarkSums& sums = state().sums;
+    double hessian[6];
+    for (int i = 0; i < 6; ++i) hessian[i] = sums.information[i] + sums.curvature[i];
+    const Symmetric newton(hessian);
+    if (newton.determines_point()) return -newton.solve(sums.gradient);
+    const Symmetric gauss_newton(sums.information);
+    if (gauss_newton.determines_point()) return -gauss_newton.solve(sums.gradient);
+    return std::nullopt;
   }
 
-  /// How far the minimum still is after an undamped step of this length: steps get shorter by a factor that
-  /// changes little.
-  [[nodiscard]] double distance_after(double length) const {
-    const double factor = length / last_length_;
-    return factor < 0.5 ? length * factor / (1 - factor) : length;
+  [[nodiscard]] std::optional<Eigen::Vector3d> damped_step() const {
+    if (!Symmetric(state().sums.information).determines_point()) return std::nullopt;
+    double hessian[6];
+    std::copy_n(state().sums.information, 6, hessian);
+    for (const int diagonal : {0, 3, 5}) hessian[diagonal] *= 1 + lambda_;
+    return -Symmetric(hessian).solve(state().sums.gradient);
+  }
+
+  /// Takes the last step without looking back: it is shorter than a thousandth of a standard deviation, and
+  /// Newton's next step would be shorter than converged_step. Or where the point is so badly determined that
+  /// rounding moves it further than that, shorter than a hundred millionth of its standard deviation.
+  [[nodiscard]] bool is_last(const Eigen::Vector3d& step) {
+    constexpr double kShort = 1e-3, kRounding = 1e-8;  // standard deviations
+    const double* gradient = state().sums.gradient;
+    const double squared_deviations =
+        -(step[0] * gradient[0] + step[1] * gradient[1] + step[2] * gradient[2]);
+    const bool last = squared_deviations < kRounding * kRounding ||
+                      (squared_deviations < kShort * kShort && next_length(step.norm()) < options_.converged_step);
+    if (!last) return false;
+    states_[current_].point += step;
+    states_[current_].sums.squared_error -= squared_deviations;
+    return true;
+  }
+
+  /// Of the step after one of this length, as long as they grow with the square of the one before.
+  [[nodiscard]] double next_length(double length) const {
+    const double share = length / last_length_;
+    return share < 0.5 ? length * share * share : length;
   }
 
   const LandmarkKernels& kernels_;
   const LandmarkFitOptions& options_;
   const PackedSightings& packed_;
   SightingErrors& errors_;
-  LandmarkState state_;
+  std::array<LandmarkState, 2> states_;
+  std::size_t current_ = 0;  // the other one is tried
   bool errors_are_of_state_ = false;
   int iterations_ = 0;
   double lambda_ = 0;
-  double last_length_ = 0;  // of the step before where it was undamped and accepted
+  double last_length_ = 0;  // of the step before, where that was undamped and lowered the cost
 };
 
 }  // namespace
@@ -171,7 +214,7 @@ class LandmarkSolver::Work {
     if (minimise(start.quick(), fit) && fit.status == LandmarkFitStatus::ok) return;
     const Eigen::Vector3d initial = start.robust(kernels_, errors_);
     while (!minimise(initial, fit)) {
-      drop_worst();
+      packed_.drop(static_cast<int>(worst_slot()));
       if (packed_.count() >= options_.min_observations) continue;
       fit.status = LandmarkFitStatus::too_few;
       fit.covariance.setZero();
@@ -187,13 +230,19 @@ class LandmarkSolver::Work {
     fit.point_in_world = packed_.origin_in_world() + point;
     fit.squared_error_sum = sums.squared_error;
     fit.iterations = descent.iterations();
-    if (fit.status == LandmarkFitStatus::ok) fit.covariance = equations_of(sums).information.inverse();
-    return sums.worst <= options_.max_error * options_.max_error;
+    if (fit.status == LandmarkFitStatus::ok) {
+      const Symmetric information(sums.information);
+      if (information.determines_point())
+        fit.covariance = information.inverse();
+      else
+        fit.status = LandmarkFitStatus::undetermined;
+    }
+    return errors_.of_all[worst_slot()] <= options_.max_error * options_.max_error;
   }
 
-  void drop_worst() {
+  [[nodiscard]] std::size_t worst_slot() const {
     const auto begin = errors_.of_all.begin();
-    packed_.drop(static_cast<int>(std::max_element(begin, begin + packed_.count()) - begin));
+    return static_cast<std::size_t>(std::max_element(begin, begin + packed_.count()) - begin);
   }
 
   void count_kept(std::span<const LandmarkSighting> sightings, LandmarkFit& fit) const {

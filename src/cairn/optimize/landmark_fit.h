@@ -15,7 +15,7 @@ struct LandmarkFitOptions {
   int min_observations = 3;  ///< fewer make no landmark, because nothing would show that one of them is wrong
   double max_error = 4;      ///< standard deviations, root of squared_error: 1e-3 of chi-square(3) is above
   int max_iterations = 20;   ///< steps tried for one solution; 2 or 3 are usual
-  double converged_step = 1e-8;  ///< metres from the minimum, as the last steps tell: far below what pixels do
+  double converged_step = 1e-8;  ///< metres: done when the next step would be shorter
 
   /// PreconditionError for a value out of range.
   void validate() const;

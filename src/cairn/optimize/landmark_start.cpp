@@ -7,6 +7,14 @@
 #include "cairn/geometry/triangulation.h"
 
 namespace cairn {
+namespace {
+
+/// By disparity over its standard deviation.
+bool is_surer(const Observation& a, const Observation& b) {
+  return a.d * b.sigma_d_px > b.d * a.sigma_d_px || (a.has_disparity() && !b.has_disparity());
+}
+
+}  // namespace
 
 void SightingErrors::make_room(int blocks) {
   const auto size = static_cast<std::size_t>(blocks) * kSightingLanes;
@@ -18,13 +26,8 @@ void SightingErrors::make_room(int blocks) {
 
 Eigen::Vector3d LandmarkStart::quick() const {
   std::size_t surest = 0;
-  double most = 0;
-  for (std::size_t i = 0; i < sightings_.size(); ++i) {
-    const Observation& seen = sightings_[i].seen;
-    if (!(seen.d > most * seen.sigma_d_px)) continue;
-    most = seen.d / seen.sigma_d_px;
-    surest = i;
-  }
+  for (std::size_t i = 1; i < sightings_.size(); ++i)
+    if (is_surer(sightings_[i].seen, sightings_[surest].seen)) surest = i;
   constexpr double kFarDisparityPx = 1;  // for rays that do not meet in front of their cameras
   return candidate(surest).value_or(back_project(sightings_[0], rig_.depth(kFarDisparityPx)));
 }
@@ -57,8 +60,8 @@ std::optional<Eigen::Vector3d> LandmarkStart::intersect(std::size_t a, std::size
   const LandmarkSighting &seen_a = sightings_[a], &seen_b = sightings_[b];
   const PlacedCamera &camera_a = camera_of(seen_a), &camera_b = camera_of(seen_b);
   const Rigid3 b_from_a{
-      Eigen::Quaterniond(camera_b.camera_from_world * camera_a.camera_from_world.transpose()),
-      camera_b.camera_from_world * (camera_a.centre_in_world - camera_b.centre_in_world)};
+      Eigen::Quaterniond(camera_b.world_from_camera.transpose() * camera_a.world_from_camera),
+      camera_b.world_from_camera.transpose() * (camera_a.centre_in_world - camera_b.centre_in_world)};
   const auto ray = [&](const Observation& seen) -> Eigen::Vector2d {
     return rig_.point_at(seen.u, seen.v, 1).head<2>();
   };
@@ -69,7 +72,7 @@ std::optional<Eigen::Vector3d> LandmarkStart::intersect(std::size_t a, std::size
 
 Eigen::Vector3d LandmarkStart::back_project(const LandmarkSighting& sighting, double depth) const {
   const PlacedCamera& camera = camera_of(sighting);
-  return camera.camera_from_world.transpose() * rig_.point_at(sighting.seen.u, sighting.seen.v, depth) +
+  return camera.world_from_camera * rig_.point_at(sighting.seen.u, sighting.seen.v, depth) +
          (camera.centre_in_world - packed_.origin_in_world());
 }
 

@@ -51,11 +51,10 @@ void PackedSightings::put(const Rig& rig, const PlacedCamera& camera, const Obse
   SightingBlock& block = block_of(blocks_, slot);
   const int lane = slot % kSightingLanes;
   const double per_px = 1.0 / seen.sigma_px, per_d_px = seen.has_disparity() ? 1.0 / seen.sigma_d_px : 0.0;
-  const Eigen::Vector3d axis = camera.camera_from_world.row(2);
-  store(per_px * rig.fx * camera.camera_from_world.row(0).transpose() - per_px * (seen.u - rig.cx) * axis,
-        block.u, lane);
-  store(per_px * rig.fy * camera.camera_from_world.row(1).transpose() - per_px * (seen.v - rig.cy) * axis,
-        block.v, lane);
+  const auto right = camera.world_from_camera.col(0), down = camera.world_from_camera.col(1),
+             axis = camera.world_from_camera.col(2);
+  store(per_px * rig.fx * right - per_px * (seen.u - rig.cx) * axis, block.u, lane);
+  store(per_px * rig.fy * down - per_px * (seen.v - rig.cy) * axis, block.v, lane);
   store(axis, block.axis, lane);
   store(camera.centre_in_world - origin_in_world_, block.centre, lane);
   block.disparity_scale[lane] = rig.fx * rig.baseline * per_d_px;

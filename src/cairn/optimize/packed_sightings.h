@@ -20,11 +20,11 @@ struct LandmarkSighting {
 
 /// A camera as packing wants it.
 struct PlacedCamera {
-  Eigen::Matrix3d camera_from_world;  ///< rotation
+  Eigen::Matrix3d world_from_camera;  ///< rotation: its columns are the camera's axes
   Eigen::Vector3d centre_in_world;
 
   explicit PlacedCamera(const CameraFromWorld& pose)
-      : camera_from_world(pose.matrix3()), centre_in_world(pose.inverse().translation) {}
+      : world_from_camera(pose.inverse().matrix3()), centre_in_world(pose.inverse().translation) {}
 };
 
 /// The sightings of one landmark, packed for the kernels. Points are here relative to the centre of the first

@@ -25,19 +25,19 @@ struct alignas(64) SightingBlock {
   double disparity[kSightingLanes];
 };
 
-/// Half the cost to second order in the point: sums over the sightings.
+/// Half the cost to second order in the point: sums over the sightings. Matrices are xx, xy, xz, yy, yz, zz.
 struct LandmarkSums {
-  double hessian[6];   ///< J^T J: xx, xy, xz, yy, yz, zz
-  double gradient[3];  ///< J^T e
+  double information[6];  ///< J^T J
+  double curvature[6];    ///< what the second derivatives of the errors, times these, add to it
+  double gradient[3];     ///< J^T e
   double squared_error;
-  double worst;  ///< the largest squared error of one sighting
 };
 
 /// A landmark's equations at `point`: of the errors e for `expand`; for `linearise` of equations linear in
 /// the point, the errors times depth over the depth of `point` (Hartley and Sturm 1997, sec. 5.2). Their
 /// values at `point` are the same. pixel_errors and errors get each lane's squared error, of (u, v) and of
 /// all, in variances. A sighting less than a micrometre in front of its camera has infinite squared errors,
-/// and then hessian and gradient mean nothing.
+/// and then the derivatives mean nothing.
 using LandmarkExpansion = void(const SightingBlock* blocks, int count, const double* point,
                                LandmarkSums* sums, double* pixel_errors, double* errors);
 
