@@ -16,8 +16,8 @@ namespace {
 /// 11.5 sightings each, half a pixel of noise; nothing is dropped, so that all solve one problem.
 const LandmarkSceneOptions kStreet{.landmarks = 1000, .shortest_track = 3, .longest_track = 20};
 constexpr LandmarkFitOptions kKeepAll{.max_error = 1e3};
-/// The peers' tolerances are the loosest powers of ten with which they come to a millionth of a metre.
-constexpr double kCeresFunctionTolerance = 1e-13, kTinyFunctionTolerance = 1e-9;
+/// The peers' tolerances: the loosest powers of ten with which they come to a millionth of a metre.
+constexpr double kCeresFunctionTolerance = 1e-13, kTinyFunctionTolerance = 1e-8, kParameterTolerance = 1e-10;
 
 struct Solution {
   Eigen::Vector3d point_in_world;
@@ -89,6 +89,7 @@ Solution solve_by_ceres(const LandmarkScene& scene, const std::vector<Projection
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
   options.function_tolerance = kCeresFunctionTolerance;
+  options.parameter_tolerance = kParameterTolerance;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   ceres::Covariance::Options covariance_options;
@@ -131,6 +132,7 @@ Solution solve_by_tiny(const LandmarkScene& scene, const std::vector<Projection>
   const TinyFunction function(residuals);
   Solution solution{start_of(scene, track), {}};
   solver.options.function_tolerance = kTinyFunctionTolerance;
+  solver.options.parameter_tolerance = kParameterTolerance;
   solver.Solve(function, &solution.point_in_world);
   Eigen::VectorXd errors(residuals.NumResiduals());
   Eigen::Matrix<double, Eigen::Dynamic, 3> jacobian(residuals.NumResiduals(), 3);
@@ -172,7 +174,7 @@ void add(Comparisons& comparisons, const std::shared_ptr<const LandmarkScene>& s
   comparisons.quality.push_back(
       {"landmarks: largest distance from those of " + peer + ", metres", distance, 0, {}, 1e-6});
   comparisons.quality.push_back(
-      {"landmarks: largest relative difference of covariances, " + peer, covariance, 0, {}, 1e-6});
+      {"landmarks: largest relative difference of covariances, " + peer, covariance, 0, {}, 1e-4});
 }
 
 }  // namespace
