@@ -126,8 +126,7 @@ struct TinyResiduals {
 using TinyFunction = ceres::TinySolverAutoDiffFunction<TinyResiduals, Eigen::Dynamic, 3>;
 
 Solution solve_by_tiny(const LandmarkScene& scene, const std::vector<Projection>& cameras,
-                       const std::vector<LandmarkSighting>& track,
-                       ceres::TinySolver<TinyFunction>& solver) {
+                       const std::vector<LandmarkSighting>& track, ceres::TinySolver<TinyFunction>& solver) {
   const TinyResiduals residuals{cameras, track};
   const TinyFunction function(residuals);
   Solution solution{start_of(scene, track), {}};
@@ -168,8 +167,7 @@ void add(Comparisons& comparisons, const std::shared_ptr<const LandmarkScene>& s
   double distance = 0, covariance = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     distance = std::max(distance, (a[i].point_in_world - b[i].point_in_world).norm());
-    covariance =
-        std::max(covariance, (a[i].covariance - b[i].covariance).norm() / b[i].covariance.norm());
+    covariance = std::max(covariance, (a[i].covariance - b[i].covariance).norm() / b[i].covariance.norm());
   }
   comparisons.quality.push_back(
       {"landmarks: largest distance from those of " + peer + ", metres", distance, 0, {}, 1e-6});

@@ -141,8 +141,9 @@ class Descent {
     const double* gradient = state().sums.gradient;
     const double squared_deviations =
         -(step[0] * gradient[0] + step[1] * gradient[1] + step[2] * gradient[2]);
-    const bool last = squared_deviations < kRounding * kRounding ||
-                      (squared_deviations < kShort * kShort && next_length(step.norm()) < options_.converged_step);
+    const bool last =
+        squared_deviations < kRounding * kRounding ||
+        (squared_deviations < kShort * kShort && next_length(step.norm()) < options_.converged_step);
     if (!last) return false;
     states_[current_].point += step;
     states_[current_].sums.squared_error -= squared_deviations;

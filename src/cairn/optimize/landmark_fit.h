@@ -47,12 +47,13 @@ struct LandmarkFit {
 ///
 ///     sum_i |S_i (pi(T_i X) - z_i)|^2
 ///
-/// over the sightings z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i are
-/// the inverse standard deviations. While a sighting's error at the solution is above max_error, the worst one
-/// is dropped, and the solution is sought again from the initial value. That is a sighting back-projected by
-/// its disparity, or two intersected; once sightings are to be dropped it is the one of these with the least
-/// median error (Rousseeuw 1984). Each solution begins with equations that are linear in X (Hartley and Sturm
-/// 1997) and goes on with Gauss-Newton steps, damped where they do not lower the cost (Marquardt 1963).
+/// over the sightings z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i
+/// are the inverse standard deviations. While a sighting's error at the solution is above max_error, the
+/// worst one is dropped, and the solution is sought again from the initial value. That is a sighting
+/// back-projected by its disparity, or two intersected; once sightings are to be dropped it is the one of
+/// these with the least median error (Rousseeuw 1984). Each solution begins with equations that are linear in
+/// X (Hartley and Sturm 1997) and goes on with Gauss-Newton steps, damped where they do not lower the cost
+/// (Marquardt 1963).
 ///
 /// Deterministic: the same bits on all instruction sets. Not to be used by two threads at a time; the second
 /// has a solver of its own. Apart from `fit.kept`, nothing is allocated once the longest track was seen.
@@ -65,8 +66,8 @@ class LandmarkSolver {
   LandmarkSolver(LandmarkSolver&&) noexcept;
   LandmarkSolver& operator=(LandmarkSolver&&) noexcept;
 
-  /// Fills `fit`, whose memory is used again. PreconditionError for a camera out of range, pixels that are not
-  /// finite, sigmas not above 0. A disparity that is not above 0 is a measurement like others.
+  /// Fills `fit`, whose memory is used again. PreconditionError for a camera out of range, pixels that are
+  /// not finite, sigmas not above 0. A disparity that is not above 0 is a measurement like others.
   void fit(std::span<const LandmarkSighting> sightings, LandmarkFit& fit);
 
  private:

@@ -56,7 +56,8 @@ struct LaneSums {
   total.sums[kInformation + 5] += u.z * u.z + v.z * v.z + d.z * d.z;
 }
 
-/// -(g a^T + a g^T) with g the sighting's gradient and a = axis / depth: that each error's second derivative is
+/// -(g a^T + a g^T) with g the sighting's gradient and a = axis / depth: that each error's second derivative
+/// is
 /// -(e' a^T + a e'^T), with e' its first, follows from e = (m . q) / (axis . q) + constant.
 [[gnu::always_inline]] inline void add_curvature(const Three& g, const Three& a, LaneSums& total) {
   const Three b{spread(0.0) - a.x, spread(0.0) - a.y, spread(0.0) - a.z};
