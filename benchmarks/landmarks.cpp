@@ -125,20 +125,32 @@ struct TinyResiduals {
 
 using TinyFunction = ceres::TinySolverAutoDiffFunction<TinyResiduals, Eigen::Dynamic, 3>;
 
-Solution solve_by_tiny(const LandmarkScene& scene, const std::vector<Projection>& cameras,
-                       const std::vector<LandmarkSighting>& track, ceres::TinySolver<TinyFunction>& solver) {
-  const TinyResiduals residuals{cameras, track};
-  const TinyFunction function(residuals);
-  Solution solution{start_of(scene, track), {}};
-  solver.options.function_tolerance = kTinyFunctionTolerance;
-  solver.options.parameter_tolerance = kParameterTolerance;
-  solver.Solve(function, &solution.point_in_world);
-  Eigen::VectorXd errors(residuals.NumResiduals());
-  Eigen::Matrix<double, Eigen::Dynamic, 3> jacobian(residuals.NumResiduals(), 3);
-  function(solution.point_in_world.data(), errors.data(), jacobian.data());
-  solution.covariance = (jacobian.transpose() * jacobian).inverse();
-  return solution;
-}
+/// Memory is used again from landmark to landmark.
+class TinyPeer {
+ public:
+  TinyPeer() {
+    solver_.options.function_tolerance = kTinyFunctionTolerance;
+    solver_.options.parameter_tolerance = kParameterTolerance;
+  }
+
+  Solution solve(const LandmarkScene& scene, const std::vector<Projection>& cameras,
+                 const std::vector<LandmarkSighting>& track) {
+    const TinyResiduals residuals{cameras, track};
+    const TinyFunction function(residuals);
+    Solution solution{start_of(scene, track), {}};
+    solver_.Solve(function, &solution.point_in_world);
+    errors_.resize(residuals.NumResiduals());
+    jacobian_.resize(residuals.NumResiduals(), 3);
+    function(solution.point_in_world.data(), errors_.data(), jacobian_.data());
+    solution.covariance = (jacobian_.transpose() * jacobian_).inverse();
+    return solution;
+  }
+
+ private:
+  ceres::TinySolver<TinyFunction> solver_;
+  Eigen::VectorXd errors_;
+  Eigen::Matrix<double, Eigen::Dynamic, 3> jacobian_;
+};
 
 std::vector<Solution> solve_all_by_ceres(const LandmarkScene& scene) {
   const std::vector<Projection> cameras = projections_of(scene);
@@ -149,9 +161,9 @@ std::vector<Solution> solve_all_by_ceres(const LandmarkScene& scene) {
 
 std::vector<Solution> solve_all_by_tiny(const LandmarkScene& scene) {
   const std::vector<Projection> cameras = projections_of(scene);
-  ceres::TinySolver<TinyFunction> solver;
+  TinyPeer peer;
   std::vector<Solution> solutions;
-  for (const auto& track : scene.tracks) solutions.push_back(solve_by_tiny(scene, cameras, track, solver));
+  for (const auto& track : scene.tracks) solutions.push_back(peer.solve(scene, cameras, track));
   return solutions;
 }
 

@@ -14,7 +14,8 @@ namespace cairn {
 struct LandmarkFitOptions {
   int min_observations = 3;  ///< fewer make no landmark, because nothing would show that one of them is wrong
   double max_error = 4;      ///< standard deviations, root of squared_error: 1e-3 of chi-square(3) is above
-  int max_iterations = 20;   ///< steps tried for one solution; 2 or 3 are usual
+  int max_iterations =
+      50;  ///< steps tried for one solution; 2 or 3 are usual, and many where depth is hardly known
   double converged_step = 1e-8;  ///< metres: done when the next step would be shorter
 
   /// PreconditionError for a value out of range.
@@ -36,9 +37,9 @@ struct LandmarkFit {
   /// Of the point in the world, square metres, from the observations' sigmas alone: cameras are exact, and it
   /// is not scaled by the residuals. Zero unless status is ok.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double squared_error_sum = 0;  ///< over the kept observations, in variances
+  double squared_error_sum = 0;  ///< over the kept observations, in variances; 0 where they are too few
   int redundancy = 0;            ///< numbers measured by the kept observations, less 3
-  double rms_px = 0;             ///< of the distance in (u, v) over the kept observations
+  double rms_px = 0;             ///< of the distance in (u, v) over the kept ones; 0 where they are too few
   std::vector<char> kept;        ///< one for each sighting, 1: used
   int iterations = 0;            ///< steps tried for the last solution
 };
