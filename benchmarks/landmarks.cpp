@@ -17,7 +17,7 @@ namespace {
 const LandmarkSceneOptions kStreet{.landmarks = 1000, .shortest_track = 3, .longest_track = 20};
 constexpr LandmarkFitOptions kKeepAll{.max_error = 1e3};
 /// The peers' tolerances: the loosest powers of ten with which they come to a millionth of a metre.
-constexpr double kCeresFunctionTolerance = 1e-13, kTinyFunctionTolerance = 1e-8, kParameterTolerance = 1e-10;
+constexpr double kCeresFunctionTolerance = 1e-13, kTinyFunctionTolerance = 1e-8, kParameterTolerance = 1e-9;
 
 struct Solution {
   Eigen::Vector3d point_in_world;
