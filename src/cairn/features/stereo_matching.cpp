@@ -191,7 +191,8 @@ std::optional<StereoMatch> find_in_image(const Rig& rig, const StereoSide& left,
   const DisparityResult result = measure_disparity(left.image, right, u, v, *found, 1);
   if (result.status != DisparityStatus::measured || result.measured.correlation < options.min_correlation)
     return std::nullopt;
-  return StereoMatch{-1, std::numeric_limits<float>::infinity(), result.measured.disparity, result.measured.sigma_px, true};
+  return StereoMatch{-1, std::numeric_limits<float>::infinity(), result.measured.disparity,
+                     result.measured.sigma_px, true};
 }
 
 }  // namespace
