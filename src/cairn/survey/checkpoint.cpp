@@ -246,8 +246,8 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder, s
   try {
     BinaryReader reader(folder / kName, kKind);
     if (reader.get<std::uint32_t>() != identity) return std::nullopt;
-    MapWriterState writer = MapWriterState::get(reader);
-    return Checkpoint{get_state(reader, observe), std::move(writer)};
+    const MapWriterState writer = MapWriterState::get(reader);
+    return Checkpoint{get_state(reader, observe), writer};
   } catch (const InputError&) {
     return std::nullopt;
   }

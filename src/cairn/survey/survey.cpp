@@ -161,7 +161,7 @@ class Run {
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;
-    return std::move(result_);
+    return result_;
   }
 
   static constexpr double kCheckpointSeconds = 2;  // what a crash costs, beside finding features again

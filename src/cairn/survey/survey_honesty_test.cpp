@@ -54,7 +54,7 @@ std::optional<SurfacePoint> surface_at(const DepthImage& depth, const Rig& rig,
 
 /// Frames of one street, observed once for all tests.
 const std::vector<StreetFrame>& street() {
-  static const std::vector<StreetFrame> frames = [] {
+  static const std::vector<StreetFrame> kFramesSeen = [] {
     SimulateStreetOptions street_options;
     street_options.frames_count = kFrames;
     street_options.noise = StreetNoise::none;
@@ -85,7 +85,7 @@ const std::vector<StreetFrame>& street() {
       return frame;
     });
   }();
-  return frames;
+  return kFramesSeen;
 }
 
 struct Honesty {
