@@ -37,12 +37,6 @@ struct TrackTargets {
   std::vector<Appearance> appearances;
 };
 
-bool is_near_image(const Rig& rig, const PredictedPlace& place) {
-  // The principal point is near the middle, so that twice its distance from the border is the image's size.
-  return place.u > -place.radius_px && place.v > -place.radius_px &&
-         place.u < 2.5 * rig.cx + place.radius_px && place.v < 2.5 * rig.cy + place.radius_px;
-}
-
 TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
                             const SurveyFrame& frame, const TrackOptions& options) {
   constexpr double kMaxPlayPx = 30;  // more is a point that is passed by
@@ -52,7 +46,7 @@ TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span
     if (is_full(tracks[i], frame.id, options)) continue;
     const Appearance appearance = appearance_of(frames, tracks[i].sightings.back());
     auto place = predict_place(view, tracks[i].point_in_world, appearance, options.search_px);
-    if (!place || !is_near_image(rig, *place)) continue;
+    if (!place) continue;
     const double play = depth_play_px(rig, frames, tracks[i], frame);
     if (!(play <= kMaxPlayPx)) continue;
     place->radius_px += play;
