@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cairn/geometry/framed.h"
+#include "cairn/geometry/geodetic.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn {
@@ -26,12 +27,6 @@ struct PoseUncertainty {
 struct GivenPose {
   WorldFromCamera world_from_camera;  ///< of the camera whose images FrameLoader gives
   std::optional<PoseUncertainty> uncertainty;
-};
-
-/// Where the world's origin lies on the earth (WGS 84); its axes are east, north and up there.
-struct GeodeticOrigin {
-  double latitude_deg = 0, longitude_deg = 0;
-  double height_m = 0;  ///< above the ellipsoid
 };
 
 struct GivenPosesOptions {
