@@ -3,12 +3,13 @@
 """Triangulates a stereo sequence (KITTI odometry layout, with poses.txt) by COLMAP 3.8, with known poses: its
 features, its matches, its point_triangulator. `apt-get install colmap` brings the program; it needs no GPU.
 
-    triangulate.py SEQ -o WORK [--frames 51] [--features 4000] [--window 20] [--threads 2] [--poses MODEL]
+    triangulate.py SEQ -o WORK [--frames 51] [--features 4000] [--window 20] [--threads 2]
+        [--poses MODEL] [--matches WORK]
 
 WORK/model has the result as text, WORK/times.json the seconds of each stage. Matched are the left and the right
 image of each pair, and the left images of each two frames that are at most `window` frames apart. The poses are those of
 poses.txt, or with --poses those of a model's images: as `cairn map --export colmap` writes them, which leaves out
-frames that show nothing new."""
+frames that show nothing new. --matches takes features and matches of an earlier run with the same frames."""
 
 import argparse
 import json
@@ -114,6 +115,25 @@ class Stages:
         self.times[stage] = {"wall_s": time.monotonic() - begin, "cpu_s": usage.ru_utime + usage.ru_stime}
 
 
+def match(arguments, frames, calibration, stages):
+    """Makes the database with features and matches; how many pairs of images were matched."""
+    work = arguments.output
+    database = work / "database.db"
+    pairs = write_pairs(work / "pairs.txt", frames, arguments.window)
+    if arguments.matches:
+        shutil.copy(arguments.matches / "database.db", database)
+        earlier = json.loads((arguments.matches / "times.json").read_text())["times"]
+        stages.times.update({stage: earlier[stage] for stage in ("features", "matching")})
+        return pairs
+    stages.run("features", "feature_extractor", database_path=database, image_path=work / "images",
+               ImageReader__camera_model="PINHOLE", ImageReader__single_camera=1,
+               ImageReader__camera_params=",".join(map(repr, calibration)), SiftExtraction__use_gpu=0,
+               SiftExtraction__max_num_features=arguments.features, SiftExtraction__num_threads=arguments.threads)
+    stages.run("matching", "matches_importer", database_path=database, match_list_path=work / "pairs.txt",
+               SiftMatching__use_gpu=0, SiftMatching__num_threads=arguments.threads)
+    return pairs
+
+
 def triangulate(arguments):
     work = arguments.output
     if work.exists():
@@ -122,19 +142,12 @@ def triangulate(arguments):
     calibration, baseline = read_calibration(arguments.sequence)
     poses = read_poses(arguments.sequence, arguments.frames, arguments.poses)
     link_images(arguments.sequence, poses, work / "images")
-    pairs = write_pairs(work / "pairs.txt", list(poses), arguments.window)
-    database, stages = work / "database.db", Stages(work / "log.txt")
-    stages.run("features", "feature_extractor", database_path=database, image_path=work / "images",
-               ImageReader__camera_model="PINHOLE", ImageReader__single_camera=1,
-               ImageReader__camera_params=",".join(map(repr, calibration)), SiftExtraction__use_gpu=0,
-               SiftExtraction__max_num_features=arguments.features, SiftExtraction__num_threads=arguments.threads)
-    stages.run("matching", "matches_importer", database_path=database, match_list_path=work / "pairs.txt",
-               SiftMatching__use_gpu=0, SiftMatching__num_threads=arguments.threads)
-    write_poses(database, poses, baseline, calibration, work / "poses")
+    stages = Stages(work / "log.txt")
+    pairs = match(arguments, list(poses), calibration, stages)
+    write_poses(work / "database.db", poses, baseline, calibration, work / "poses")
     (work / "model").mkdir()
-    stages.run("triangulation", "point_triangulator", database_path=database, image_path=work / "images",
-               input_path=work / "poses", output_path=work / "model", Mapper__num_threads=arguments.threads,
-               Mapper__ba_refine_focal_length=0, Mapper__ba_refine_extra_params=0)
+    stages.run("triangulation", "point_triangulator", database_path=work / "database.db", image_path=work / "images",
+               input_path=work / "poses", output_path=work / "model", Mapper__num_threads=arguments.threads)
     stages.run("conversion", "model_converter", input_path=work / "model", output_path=work / "model", output_type="TXT")
     stages.run("analysis", "model_analyzer", path=work / "model")
     figures = {"frames": len(poses), "image_pairs": pairs, "times": stages.times}
@@ -151,6 +164,7 @@ def main():
     parser.add_argument("--window", type=int, default=20, help="frames")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--poses", type=Path, metavar="MODEL", help="a model in COLMAP's text form")
+    parser.add_argument("--matches", type=Path, metavar="WORK", help="of an earlier run with the same frames")
     print(json.dumps(triangulate(parser.parse_args()), indent=2))
 
 
