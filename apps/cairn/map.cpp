@@ -62,7 +62,7 @@ int warn_if_empty(const SurveyResult& result) {
   fmt::print(stderr,
              "cairn map: not one landmark: {} tracks of features, {} in too few frames, {} that contradict "
              "the poses.\n  Look at the calibration, the poses' frame ('cairn info SEQ') and "
-             "--time-offset.\n",
+             "--pose-offset.\n",
              result.counts.tracks, result.counts.too_short, result.counts.contradictory);
   return 1;
 }

@@ -91,8 +91,8 @@ class Run {
  private:
   void begin() {
     const MapHeader header = header_of(input_, rig_, options_);
-    auto checkpoint = read_checkpoint(folder_, identity_,
-                                      [&](FrameId id, SurveyFrame& frame) { observe_again(id, frame); });
+    auto checkpoint =
+        read_checkpoint(folder_, identity_, [&](std::vector<SurveyFrame>& frames) { observe_again(frames); });
     writer_ = checkpoint ? std::make_unique<MapWriter>(folder_, header, checkpoint->writer)
                          : std::make_unique<MapWriter>(folder_, header);
     SurveyState state = checkpoint ? std::move(checkpoint->state) : SurveyState{};
@@ -100,13 +100,15 @@ class Run {
     surveyor_ = std::make_unique<Surveyor>(rig_, options_, std::move(state), *writer_);
   }
 
-  void observe_again(FrameId id, SurveyFrame& frame) const {
-    const auto index = static_cast<std::size_t>(id.value);
-    Arrival arrival = frontend_(index);
-    if (arrival.failure) std::rethrow_exception(arrival.failure);
-    scale_sigmas(options_.covariance.sigma_px, arrival.observed);
-    frame.observed = select(arrival.observed, frame.kept);
-    frame.given = *input_.poses.frames[index];
+  void observe_again(std::vector<SurveyFrame>& frames) const {
+    executor_.for_each(frames.size(), [&](std::size_t i) {
+      const auto index = static_cast<std::size_t>(frames[i].observed.frame.value);
+      Arrival arrival = frontend_(index);
+      if (arrival.failure) std::rethrow_exception(arrival.failure);
+      scale_sigmas(options_.covariance.sigma_px, arrival.observed);
+      frames[i].observed = select(arrival.observed, frames[i].kept);
+      frames[i].given = *input_.poses.frames[index];
+    });
   }
 
   void follow() {
@@ -159,10 +161,10 @@ class Run {
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;
-    return std::move(result_);
+    return result_;
   }
 
-  static constexpr double kCheckpointSeconds = 5;  // what a crash costs, beside finding features again
+  static constexpr double kCheckpointSeconds = 2;  // what a crash costs, beside finding features again
 
   const SurveyInput& input_;
   const SurveyOptions& options_;
