@@ -137,6 +137,13 @@ Nearest search(const Descriptors& query, const Descriptors& train, const Wanted&
 
 }  // namespace
 
+double descriptor_limit(const Descriptors& descriptors) {
+  constexpr double kBitShare = 0.3;
+  constexpr double kByteDistance = 300;  // of SIFT's vectors, which have the length 512
+  return descriptors.norm() == Norm::hamming ? kBitShare * 8.0 * static_cast<double>(descriptors.bytes())
+                                             : kByteDistance;
+}
+
 void MatchOptions::validate() const {
   require(max_distance >= 0, "the distance limit is not negative");
   require(max_ratio >= 0, "the ratio is not negative");

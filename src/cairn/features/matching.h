@@ -33,6 +33,10 @@ struct MatchOptions {
   void validate() const;
 };
 
+/// How far a descriptor may change between two views of one thing: of random pairs under one in a thousand
+/// are nearer.
+[[nodiscard]] double descriptor_limit(const Descriptors& descriptors);
+
 // Brute force over all pairs, O(queries * trains). Distances are exact integers (before the root of L2), and
 // of equal ones the lower index is nearer; so results are the same on every processor and at any number of
 // threads. All throw PreconditionError where the two kinds of descriptor differ; an empty side gives nothing.

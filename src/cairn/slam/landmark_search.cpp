@@ -2,15 +2,10 @@
 #include "cairn/slam/landmark_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 namespace cairn {
 namespace {
-
-constexpr double kMinViewCosine = 0.5;     // 60 degrees: descriptors rarely survive more
-constexpr double kMaxDistanceRatio = 5.0;  // beyond, no pyramid level shows the same patch
-constexpr double kMaxSizeRatio = 1.5;      // of found to expected: two levels of ORB's pyramid
 
 Descriptors gather(const std::vector<Appearance>& appearances) {
   if (appearances.empty()) return {};
@@ -22,30 +17,6 @@ Descriptors gather(const std::vector<Appearance>& appearances) {
 }
 
 }  // namespace
-
-double descriptor_limit(const Descriptors& descriptors) {
-  constexpr double kBitShare = 0.3;
-  constexpr double kByteDistance = 300;  // of SIFT's vectors, which have the length 512
-  return descriptors.norm() == Norm::hamming ? kBitShare * 8.0 * static_cast<double>(descriptors.bytes())
-                                             : kByteDistance;
-}
-
-std::optional<PredictedPlace> predict_place(const FrameView& view, const Eigen::Vector3d& point_in_world,
-                                            const Appearance& appearance, double radius_px) {
-  constexpr double kMinDepth = 1e-3;  // metres
-  const Eigen::Vector3d point = view.camera_from_world * point_in_world;
-  if (!(point.z() > kMinDepth)) return std::nullopt;
-  const Eigen::Vector3d ray_then = point_in_world - appearance.centre_in_world;
-  const Eigen::Vector3d ray_now = view.camera_from_world.rotation.conjugate() * point;
-  const double distance_then = ray_then.norm(), distance_now = ray_now.norm();
-  if (!(ray_then.dot(ray_now) > kMinViewCosine * distance_then * distance_now)) return std::nullopt;
-  const double ratio = distance_then / distance_now;
-  if (!(ratio < kMaxDistanceRatio && ratio * kMaxDistanceRatio > 1)) return std::nullopt;
-  const Eigen::Vector3d pixel = view.rig.project(point);
-  const double size = ratio * static_cast<double>(appearance.keypoint.size);
-  const double sigma = std::max(1.0, ratio * static_cast<double>(appearance.keypoint.sigma_px));
-  return PredictedPlace{pixel.x(), pixel.y(), radius_px * sigma, size / kMaxSizeRatio, size * kMaxSizeRatio};
-}
 
 Appearance nearest_appearance(const Map& map, const Landmark& landmark,
                               const Eigen::Vector3d& centre_in_world) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "cairn/features/guided_matching.h"
+#include "cairn/map/observed_frame.h"
+
+namespace cairn {
+
+/// How a point looked in an earlier view.
+struct Appearance {
+  const Descriptors* descriptors = nullptr;
+  std::size_t row = 0;
+  Keypoint keypoint;
+  Eigen::Vector3d centre_in_world;  ///< of the camera then
+};
+
+/// A view to search in: a frame's features and where its camera is thought to be.
+struct FrameView {
+  const Rig& rig;
+  const ObservedFrame& observed;
+  Rigid3 camera_from_world;
+};
+
+/// Where a point should be seen: nothing behind the camera, from a direction more than 60 degrees away from
+/// that of its appearance, or at more than five times its distance or less than a fifth. `radius_px` is for
+/// the lowest pyramid level and grows with the expected one.
+[[nodiscard]] std::optional<PredictedPlace> predict_place(const FrameView& view,
+                                                          const Eigen::Vector3d& point_in_world,
+                                                          const Appearance& appearance, double radius_px);
+
+}  // namespace cairn
