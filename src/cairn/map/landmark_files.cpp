@@ -12,10 +12,6 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kPointKind{"CAIRNPNT", kMapVersion};
-constexpr BinaryKind kDescriptorKind{"CAIRNDSC", kMapVersion};
-constexpr std::size_t kSightingBytes = 16;  // keyframe, feature, size, sigma; the descriptor follows
-
 /// Of a descriptor that is filled up, so that all records begin at a multiple of 8.
 std::size_t padded(std::size_t bytes) {
   return (bytes + 7) / 8 * 8;
@@ -32,11 +28,6 @@ void expect_count(const BinaryReader& reader, std::uint64_t expected, std::uint6
                   std::string_view what) {
   if (found != expected)
     reader.fail(fmt::format("{} {}, as map.json says", expected, what), fmt::format("{}", found));
-}
-
-/// Infinite variances are possible: of a point that nothing determines.
-bool is_covariance(const Eigen::Matrix3d& matrix) {
-  return !matrix.hasNaN() && matrix == matrix.transpose() && matrix.diagonal().minCoeff() >= 0;
 }
 
 StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const MapInfo& info,
@@ -61,8 +52,12 @@ StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const Map
 
 }  // namespace
 
+bool is_covariance(const Eigen::Matrix3d& matrix) {
+  return !matrix.hasNaN() && matrix == matrix.transpose() && matrix.diagonal().minCoeff() >= 0;
+}
+
 std::size_t sighting_bytes(const DescriptorKind& kind) {
-  return kSightingBytes + padded(kind.bytes);
+  return kSightingHead + padded(kind.bytes);
 }
 
 BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t sightings) {

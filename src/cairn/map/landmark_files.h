@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cairn/features/features.h"
+#include "cairn/map/binary_file.h"
 #include "cairn/map/map.h"
 #include "cairn/map/map_info.h"
 
@@ -29,6 +30,10 @@ struct StoredSightings {
 /// Bytes of a row of Descriptor.bin, and of a record of Point.bin.
 [[nodiscard]] std::size_t sighting_bytes(const DescriptorKind& kind);
 constexpr std::size_t kLandmarkBytes = 112;
+/// Where the records begin, and within a row of Descriptor.bin the descriptor.
+constexpr std::size_t kPointBegin = 24, kDescriptorBegin = 32, kSightingHead = 16;
+constexpr BinaryKind kPointKind{"CAIRNPNT", kMapVersion};
+constexpr BinaryKind kDescriptorKind{"CAIRNDSC", kMapVersion};
 
 /// Beginnings of the files for so many landmarks and sightings; then come the records, in order.
 [[nodiscard]] BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t sightings);
@@ -38,6 +43,9 @@ void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWrit
 /// `descriptor` has the kind's bytes.
 void put_sighting(const Sighting& sighting, const Keypoint& keypoint, const std::uint8_t* descriptor,
                   const DescriptorKind& kind, ByteWriter& writer);
+
+/// What a covariance in Point.bin can be: variances may be infinite, of a point that nothing determines.
+[[nodiscard]] bool is_covariance(const Eigen::Matrix3d& matrix);
 
 /// Point.bin or Descriptor.bin of the map in `folder`, as `info` announces it; the indices lie in their
 /// ranges. InputError where the file is missing, damaged, of another version, not the one that was announced,

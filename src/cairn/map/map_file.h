@@ -27,6 +27,9 @@ void write_map(const std::filesystem::path& folder, const Map& map,
 /// nothing of whether it can be read.
 [[nodiscard]] std::optional<std::filesystem::path> find_map_folder(const std::filesystem::path& folder);
 
+/// The same; InputError where there is none.
+[[nodiscard]] std::filesystem::path require_map_folder(const std::filesystem::path& folder);
+
 /// The map in a folder that find_map_folder finds. Writing it gives the same bytes, if the same covariances
 /// are given. Observations have the precision of floats, keypoints no response; a keyframe's parent is the
 /// earlier one of its part that shows most of the same landmarks (the latest of several, the one before it

@@ -4,16 +4,14 @@
 #include <algorithm>
 #include <cstring>
 
-#include "cairn/core/checksum.h"
 #include "cairn/core/error.h"
-#include "cairn/core/file.h"
-#include "cairn/core/text.h"
 #include "cairn/map/binary_file.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/map/landmark_files.h"
 #include "cairn/map/map_file.h"
 #include "cairn/map/map_info.h"
-#include "cairn/sequence/trajectory.h"
+#include "cairn/map/map_texts.h"
+#include "cairn/map/place_layout.h"
 
 namespace cairn {
 namespace {
@@ -34,40 +32,6 @@ struct MapFiles {
   throw InputError({path.string(), 0, std::move(expected), std::move(found), std::string(kMapRemedy)});
 }
 
-fs::path require_map_folder(const fs::path& folder) {
-  if (const auto found = find_map_folder(folder)) return *found;
-  std::error_code error;
-  throw InputError({folder.string(), 0, "the folder of a map, or of a run with one in its map/",
-                    fs::exists(folder, error) ? "none of its files" : "nothing of that name",
-                    "Check the path; cairn map and cairn slam make maps."});
-}
-
-void check_text(const fs::path& folder, const MapInfo& info, const char* name) {
-  const std::string text = read_file(folder / name);
-  if (info.checksum_of(name) != crc32(text))
-    fail(folder / name, "contents that fit their CRC-32 in map.json",
-         "others: the file is damaged or was changed");
-}
-
-/// Their stamps need not increase: a map may hold several recordings.
-std::vector<WorldFromCamera> read_poses(const fs::path& folder, const MapInfo& info) {
-  check_text(folder, info, kPosesFile);
-  const TextFile file(folder / kPosesFile);
-  if (file.lines().size() != info.keyframes.size())
-    fail(file.path(), fmt::format("{} poses, as map.json says", info.keyframes.size()),
-         fmt::format("{}", file.lines().size()));
-  std::vector<WorldFromCamera> poses;
-  for (const TextLine& line : file.lines()) {
-    file.expect_fields(line, 8, "t tx ty tz qx qy qz qw");
-    const StampedPose pose = parse_tum_pose(file, line, 0);
-    if (const auto stamp_ns = info.keyframes[poses.size()].stamp_ns; pose.stamp_ns != stamp_ns)
-      file.fail(line, fmt::format("the stamp {}, as map.json says", format_stamp(stamp_ns)),
-                format_stamp(pose.stamp_ns), std::string(kMapRemedy));
-    poses.push_back(pose.world_from_camera);
-  }
-  return poses;
-}
-
 std::vector<FrameFile> read_frames(const fs::path& folder, const MapInfo& info) {
   std::vector<FrameFile> frames;
   std::uint64_t features = 0;
@@ -85,11 +49,12 @@ MapFiles read_files(const fs::path& folder) {
   MapFiles files;
   files.folder = folder;
   files.info = read_map_info(folder / kMapInfoFile);
-  files.poses = read_poses(folder, files.info);
-  check_text(folder, files.info, kUvlistFile);
+  files.poses = read_map_poses(folder, files.info);
+  check_map_text(folder, files.info, kUvlistFile);
   files.frames = read_frames(folder, files.info);
   files.landmarks = read_point_file(folder, files.info);
   files.sightings = read_descriptor_file(folder, files.info);
+  check_sealed_file(folder / kPlaceFile, kPlaceKind, files.info.checksum_of(kPlaceFile));
   return files;
 }
 
@@ -177,6 +142,14 @@ Map build_map(MapFiles&& files) {
 }
 
 }  // namespace
+
+fs::path require_map_folder(const fs::path& folder) {
+  if (const auto found = find_map_folder(folder)) return *found;
+  std::error_code error;
+  throw InputError({folder.string(), 0, "the folder of a map, or of a run with one in its map/",
+                    fs::exists(folder, error) ? "none of its files" : "nothing of that name",
+                    "Check the path; cairn map and cairn slam make maps."});
+}
 
 std::optional<fs::path> find_map_folder(const fs::path& folder) {
   std::error_code error;

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "cairn/features/place_index.h"
+#include "cairn/map/map_view.h"
+
+namespace cairn {
+
+/// The keyframes that look most like an image, best first, at most `most`: each descriptor votes for the
+/// keyframes that show a landmark which looks like it, and weighs the less the more they are; see PlaceIndex,
+/// whose score this is.
+[[nodiscard]] std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& descriptors,
+                                                      std::size_t most);
+
+/// The keyframes that were nearest to a pose and looked the same way, nearest first, at most `most`.
+[[nodiscard]] std::vector<KeyframeId> keyframes_near(const MapView& map,
+                                                     const WorldFromCamera& world_from_camera,
+                                                     std::size_t most);
+
+}  // namespace cairn
