@@ -37,6 +37,7 @@ packages_build=(
   libyaml-cpp-dev nlohmann-json3-dev    # camera.yaml, run.json
   libceres-dev                          # pose graph
   liboctomap-dev                        # octrees
+  libgeographiclib-dev                  # geodetic poses
   libcli11-dev                          # the command line
   libgtest-dev python3                  # the build description knows the tests, too, which are C++ and Python
 )

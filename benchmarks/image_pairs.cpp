@@ -12,6 +12,7 @@
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
 #include "cairn/optimize/pose_only.h"
+#include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/sequence/simulate_room.h"
 #include "cairn/sequence/simulate_street.h"

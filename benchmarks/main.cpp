@@ -7,6 +7,7 @@
 #include "comparison.h"
 #include "features.h"
 #include "geometry.h"
+#include "landmarks.h"
 
 int main(int argc, char** argv) {
   try {
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
     cairn::bench::add_sift(comparisons, inputs);
     cairn::bench::add_geometry(comparisons);
     cairn::bench::add_bundle(comparisons);
+    cairn::bench::add_landmarks(comparisons);
     return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "cairn_bench: {}\n", error.what());

@@ -9,6 +9,7 @@ find_package(yaml-cpp REQUIRED)       # camera.yaml and configuration files
 find_package(nlohmann_json REQUIRED)  # run.json, map.json and --json
 find_package(Ceres REQUIRED)          # pose graph
 find_package(octomap REQUIRED)        # .bt and .ot files
+pkg_check_modules(geographiclib REQUIRED IMPORTED_TARGET geographiclib)  # latitude, longitude, height to east, north, up
 find_package(CLI11 REQUIRED)          # the command line
 
 # OpenCV: detectors and descriptors chosen by name. Its CMake package comes only with libopencv-dev, which pulls in

@@ -16,16 +16,15 @@ namespace {
 struct CloudArguments {
   CommonOptions common;
   SequenceArguments sequence;
-  std::string poses, output, picture;
+  PoseArguments poses;
+  std::string output, picture;
   CloudOptions options;
 };
 
 void declare(CLI::App& app, CloudArguments& arguments) {
   app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence")->required();
   app.add_option("-o", arguments.output, "the cloud, .ply or .pcd")->type_name("FILE")->required();
-  app.add_option("--poses", arguments.poses,
-                 "world_from_camera in TUM format (default: the sequence's own truth)")
-      ->type_name("FILE");
+  add_pose_options(app, arguments.poses);
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
       ->type_name("M")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 #include "common.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -209,6 +210,12 @@ std::unique_ptr<Progress> make_progress(const CommonOptions& options) {
   std::signal(SIGTERM, on_interrupt);
   if (options.quiet || options.json) return std::make_unique<SilentProgress>();
   return std::make_unique<TerminalProgress>();
+}
+
+double peak_memory_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 }  // namespace cairn::app

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 namespace cairn::app {
-PosedSequence open_posed_sequence(const SequenceArguments& arguments, const std::string& poses) {
+PosedSequence open_posed_sequence(const SequenceArguments& arguments, const PoseArguments& poses) {
   PosedSequence posed{open_sequence(arguments.folder, arguments.options()), {}};
-  posed.world_from_camera = poses_of_frames(posed.sequence, poses);
+  posed.world_from_camera = poses_of_frames(posed.sequence, poses.options());
   return posed;
 }
 

@@ -6,6 +6,7 @@
 #include "cairn/core/stopwatch.h"
 #include "cairn/dense/fuse_sequence.h"
 #include "common.h"
+#include "pose_arguments.h"
 
 namespace cairn::app {
 
@@ -16,8 +17,8 @@ struct PosedSequence {
   std::vector<std::optional<WorldFromCamera>> world_from_camera;
 };
 
-/// `poses` may be empty where the sequence has truth.
-[[nodiscard]] PosedSequence open_posed_sequence(const SequenceArguments& arguments, const std::string& poses);
+[[nodiscard]] PosedSequence open_posed_sequence(const SequenceArguments& arguments,
+                                                const PoseArguments& poses);
 
 void print_report(const FusionReport& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const FusionReport& report);

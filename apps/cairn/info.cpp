@@ -7,6 +7,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/map/map_file.h"
+#include "cairn/sequence/given_poses.h"
 #include "commands.h"
 #include "common.h"
 #include "info_map.h"
@@ -88,6 +89,8 @@ void print_text(const Sequence& sequence) {
   } else {
     fmt::print("truth        none\n");
   }
+  if (const auto oxts = oxts_in(sequence.folder))
+    fmt::print("poses        OXTS packets in {}\n", oxts->string());
 }
 
 nlohmann::ordered_json to_json(const Camera& camera) {
@@ -134,6 +137,8 @@ void print_json(const Sequence& sequence) {
   json["raw_stereo"] = sequence.calibration.raw_stereo ? to_json(*sequence.calibration.raw_stereo) : nullptr;
   json["truth_poses"] = sequence.truth ? sequence.truth->size() : 0;
   json["truth_path_m"] = sequence.truth ? path_length_m(*sequence.truth) : 0.0;
+  const auto oxts = oxts_in(sequence.folder);
+  json["oxts"] = oxts ? nlohmann::ordered_json(oxts->string()) : nullptr;
   fmt::print("{}\n", json.dump(2));
 }
 

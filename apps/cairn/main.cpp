@@ -27,6 +27,7 @@ constexpr Command kCommands[] = {
     {"rectify", "the rectified pairs of a stereo sequence, in KITTI layout", cairn::app::run_rectify},
     {"slam", "RGB-D or stereo sequence to trajectory and map, coloured cloud and octree",
      cairn::app::run_slam},
+    {"map", "stereo or RGB-D sequence with its poses to a map of landmarks", cairn::app::run_map},
     {"cloud", "coloured cloud (.ply, .pcd) from a sequence and its poses", cairn::app::run_cloud},
     {"octree", "occupancy octree (.bt, .ot) from a cloud, or from a sequence and its poses",
      cairn::app::run_octree},

@@ -16,7 +16,8 @@ namespace {
 struct OctreeArguments {
   CommonOptions common;
   SequenceArguments sequence;  // its folder may be a cloud file
-  std::string poses, output;
+  PoseArguments poses;
+  std::string output;
   OccupancyOptions options;
 };
 
@@ -28,9 +29,7 @@ void declare(CLI::App& app, OctreeArguments& arguments) {
                  ".bt: occupied and free; .ot: probabilities, and colours where there are any")
       ->type_name("FILE")
       ->required();
-  app.add_option("--poses", arguments.poses,
-                 "world_from_camera in TUM format (default: the sequence's own truth)")
-      ->type_name("FILE");
+  add_pose_options(app, arguments.poses);
   app.add_option("--resolution", arguments.options.resolution, "metres; size of the smallest cubes")
       ->type_name("M")
       ->capture_default_str();
@@ -112,7 +111,7 @@ Result build_octree(const OctreeArguments& arguments) {
 
 void require_no_sequence_options(const OctreeArguments& arguments) {
   const SequenceArguments& sequence = arguments.sequence;
-  for (const auto& [name, value] : {std::pair{"--poses", arguments.poses},
+  for (const auto& [name, value] : {std::pair{"--poses", arguments.poses.path},
                                     {"--camera", sequence.camera},
                                     {"--frames", sequence.frames},
                                     {"--without", sequence.without}}) {

@@ -2,7 +2,6 @@
 #include "slam_outputs.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -21,12 +20,6 @@
 
 namespace cairn::app {
 namespace {
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 struct FrameCounts {
   std::int64_t frames = 0, tracked = 0, elsewhere = 0, relocalized = 0, too_far = 0, not_matched = 0;

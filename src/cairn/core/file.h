@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +58,11 @@ class OutputFolder {
  public:
   /// `kind` is a noun for the marker and for messages: "sequence", "run", "map".
   explicit OutputFolder(const std::filesystem::path& target, std::string_view kind = "result");
+  /// For work that goes on after a crash: `work()` is `<target>.unfinished`, holds what an earlier run has
+  /// left there, and stays if `is_worth_keeping` when this is destroyed before `commit`. InputError where
+  /// another run is at work in it.
+  OutputFolder(const std::filesystem::path& target, std::string_view kind,
+               std::function<bool(const std::filesystem::path& work)> is_worth_keeping);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -67,6 +73,8 @@ class OutputFolder {
   void commit();
 
  private:
+  void prepare(const std::filesystem::path& work, std::string_view kind);
+  void lock();
   void replace_target();
   void fill_target();
 
@@ -75,6 +83,8 @@ class OutputFolder {
   std::filesystem::path work_;
   std::vector<std::filesystem::path> made_parents_;  // innermost first
   bool in_place_ = false;
+  std::function<bool(const std::filesystem::path&)> is_worth_keeping_;
+  int lock_ = -1;  // of the work folder, which only one run may use
 };
 
 }  // namespace cairn

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -68,19 +70,49 @@ OutputFolder::OutputFolder(const fs::path& target, std::string_view kind)
   require_ours(target, kind);
   std::error_code error;
   in_place_ = fs::exists(target_, error) && !can_be_renamed(target_);
-  work_ = temporary_beside(in_place_ ? target_ / "result" : target_);
+  prepare(temporary_beside(in_place_ ? target_ / "result" : target_), kind);
+}
+
+OutputFolder::OutputFolder(const fs::path& target, std::string_view kind,
+                           std::function<bool(const fs::path& work)> is_worth_keeping)
+    : given_(target), target_(absolute_without_link(target)) {
+  require_ours(target, kind);
+  std::error_code error;
+  in_place_ = fs::exists(target_, error) && !can_be_renamed(target_);
+  const fs::path unfinished = (in_place_ ? target_ / "result" : target_).string() + ".unfinished";
+  require_ours(unfinished, kind);
+  prepare(unfinished, kind);
+  lock();
+  is_worth_keeping_ = std::move(is_worth_keeping);
+}
+
+void OutputFolder::prepare(const fs::path& work, std::string_view kind) {
+  work_ = work;
+  std::error_code error;
   for (fs::path parent = work_.parent_path(); !fs::exists(parent, error); parent = parent.parent_path())
     made_parents_.push_back(parent);
   fs::create_directories(work_, error);
-  if (error) fail_writing(target, "create the folder", error.value());
+  if (error) fail_writing(given_, "create the folder", error.value());
   write_file(work_ / kMarker, fmt::format("{}: written by cairn, which may replace this folder\n", kind));
 }
 
+void OutputFolder::lock() {
+  lock_ = ::open(work_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ >= 0 && ::flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
+  if (lock_ >= 0) ::close(lock_);
+  const std::string work = work_.string();
+  work_.clear();
+  throw InputError({work, 0, "unfinished work that nobody is at", "another run that works in it",
+                    "Wait for it, or choose another -o."});
+}
+
 OutputFolder::~OutputFolder() {
-  if (work_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(work_, ignored);
-  for (const fs::path& parent : made_parents_) fs::remove(parent, ignored);  // only where it is empty
+  if (!work_.empty() && !(is_worth_keeping_ && is_worth_keeping_(work_))) {
+    std::error_code ignored;
+    fs::remove_all(work_, ignored);
+    for (const fs::path& parent : made_parents_) fs::remove(parent, ignored);  // only where it is empty
+  }
+  if (lock_ >= 0) ::close(lock_);
 }
 
 void OutputFolder::commit() {

@@ -8,6 +8,7 @@
 #include "cairn/core/file.h"
 #include "cairn/dense/test_scene.h"
 #include "cairn/image/codec.h"
+#include "cairn/sequence/given_poses.h"
 
 namespace cairn {
 namespace {

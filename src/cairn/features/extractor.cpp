@@ -77,6 +77,7 @@ std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {
   if (named.detector == "SIFT") {
     SiftOptions sift;
     sift.count = options.count;
+    sift.extrema.contrast = options.contrast;
     sift.root = named.descriptor == "ROOTSIFT";
     return make_sift_extractor(sift);
   }

@@ -17,6 +17,8 @@ struct FeatureOptions {
   std::string detector = "ORB";    ///< see detector_names()
   std::string descriptor = "ORB";  ///< see descriptor_names()
   int count = 1000;  ///< at most so many per image: enough for any pose, few enough to match in 3 ms
+  /// SIFT alone: the weakest that is taken, see SiftExtremaOptions. Less gives more features of dim texture.
+  double contrast = 0.02;
 
   /// InputError for a name that does not exist, a pair that does not fit together, a count below 1.
   void validate() const;

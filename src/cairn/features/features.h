@@ -50,6 +50,9 @@ class Descriptors {
   std::vector<std::uint64_t> words_;
 };
 
+/// Some of the rows, in their order.
+[[nodiscard]] Descriptors select(const Descriptors& all, std::span<const std::size_t> rows);
+
 /// Keypoint i is described by row i.
 struct Features {
   std::vector<Keypoint> keypoints;

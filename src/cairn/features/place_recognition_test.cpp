@@ -14,6 +14,7 @@
 #include "cairn/features/matching.h"
 #include "cairn/features/place_index.h"
 #include "cairn/image/codec.h"
+#include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/sequence/simulate_room.h"
 

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/features/kernels/disparity_kernels.h"
@@ -150,7 +152,36 @@ MeasuredDisparity summarise(const Window& window, const Fit& fit, double du, dou
   return measured;
 }
 
+/// The disparity of the least difference, where no other place is nearly as good.
+std::optional<int> find_alone(const Window& window, int first, int last) {
+  constexpr int kOnePlace = 2;           // pixels: within, it is the same minimum
+  constexpr double kMinAdvantage = 1.5;  // of the next best; as 0.8 for the ratio of distances (Lowe 2004)
+  std::vector<double> differences;
+  for (int disparity = first; disparity <= last; ++disparity)
+    differences.push_back(window.has_room(disparity, 0) ? window.difference(disparity)
+                                                        : std::numeric_limits<double>::infinity());
+  const auto best = std::min_element(differences.begin(), differences.end());
+  if (best == differences.end() || !std::isfinite(*best)) return std::nullopt;
+  for (auto other = differences.begin(); other != differences.end(); ++other) {
+    if (std::abs(other - best) > kOnePlace && *other < kMinAdvantage * *best) return std::nullopt;
+  }
+  return first + static_cast<int>(best - differences.begin());
+}
+
 }  // namespace
+
+std::optional<int> find_disparity(const GrayImage& left, const GrayImage& right, double u, double v,
+                                  int first, int last) {
+  require(left.width() == right.width() && left.height() == right.height(), "both images have one size");
+  if (!(u >= 0 && v >= 0 && u < left.width() && v < left.height())) return std::nullopt;
+  const int column = static_cast<int>(u + 0.5), row = static_cast<int>(v + 0.5);
+  if (!Window::has_room(left, column, row)) return std::nullopt;
+  const auto there = find_alone(Window(left, right, column, row), first, last);
+  if (!there || !Window::has_room(right, column - *there, row)) return std::nullopt;
+  const auto back = find_alone(Window(right, left, column - *there, row), -last, -first);
+  constexpr int kSame = 1;  // pixels
+  return back && std::abs(*back + *there) <= kSame ? there : std::nullopt;
+}
 
 DisparityResult measure_disparity(const GrayImage& left, const GrayImage& right, double u, double v,
                                   double guess, double reach_px) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "cairn/image/image.h"
 
 namespace cairn {
@@ -34,5 +36,11 @@ struct DisparityResult {
 /// Both images have one size. The same bits on every processor.
 [[nodiscard]] DisparityResult measure_disparity(const GrayImage& left, const GrayImage& right, double u,
                                                 double v, double guess, double reach_px);
+
+/// The whole disparity in [first, last] at which the windows differ least, but for an offset; nothing where
+/// another, more than two pixels away, is nearly as good, or where the right window, looked for in the left
+/// image, is found elsewhere: hidden places and repeated texture. The same bits on every processor.
+[[nodiscard]] std::optional<int> find_disparity(const GrayImage& left, const GrayImage& right, double u,
+                                                double v, int first, int last);
 
 }  // namespace cairn

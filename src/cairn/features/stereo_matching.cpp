@@ -179,6 +179,21 @@ std::optional<StereoMatch> measure(const StereoSide& left, const StereoSide& rig
   return match;
 }
 
+/// A feature without a right one, by its window alone.
+std::optional<StereoMatch> find_in_image(const Rig& rig, const StereoSide& left, const GrayImage& right,
+                                         const Keypoint& keypoint, const StereoMatchOptions& options) {
+  if (!is_usable(keypoint, left.image.height())) return std::nullopt;
+  const auto u = static_cast<double>(keypoint.u), v = static_cast<double>(keypoint.v);
+  const auto first = static_cast<int>(rig.disparity(options.max_depth));
+  const auto last = static_cast<int>(std::min<double>(rig.disparity(options.min_depth), right.width())) + 1;
+  const auto found = find_disparity(left.image, right, u, v, first, last);
+  if (!found) return std::nullopt;
+  const DisparityResult result = measure_disparity(left.image, right, u, v, *found, 1);
+  if (result.status != DisparityStatus::measured || result.measured.correlation < options.min_correlation)
+    return std::nullopt;
+  return StereoMatch{-1, std::numeric_limits<float>::infinity(), result.measured.disparity, result.measured.sigma_px, true};
+}
+
 }  // namespace
 
 void StereoMatchOptions::validate() const {
@@ -209,6 +224,8 @@ std::vector<std::optional<StereoMatch>> match_stereo(const Rig& rig, const Stere
   executor.for_each_chunk(found.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {
       if (found[l]) matches[l] = measure(left, right, *found[l], options.min_correlation);
+      if (!matches[l] && options.search_images)
+        matches[l] = find_in_image(rig, left, right.image, left.features.keypoints[l], options);
       if (matches[l] && !is_in_range(rig, options, matches[l]->disparity)) matches[l].reset();
     }
   });

@@ -21,13 +21,16 @@ struct StereoMatchOptions {
   double max_distance = std::numeric_limits<double>::infinity();  ///< of the descriptors, as Match::distance
   double max_ratio = 0;           ///< as MatchOptions::max_ratio, among those within the limits above
   double min_correlation = 0.85;  ///< of the windows, see MeasuredDisparity; less is another thing or hidden
+  /// A left feature that has no right one is looked for in the right image itself, by its window: detectors
+  /// find half of the features again. Such a match has no right feature.
+  bool search_images = false;
 
   /// PreconditionError for limits without meaning.
   void validate() const;
 };
 
 struct StereoMatch {
-  std::int32_t right = 0;         ///< index of the right feature
+  std::int32_t right = 0;         ///< index of the right feature; -1: found in the image alone
   float distance = 0;             ///< of the descriptors
   double disparity = 0;           ///< pixels, at the left keypoint; above 0 and within the depth limits
   double sigma_disparity_px = 0;  ///< its standard deviation

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "cairn/core/parameter.h"
 #include "cairn/features/stereo_matching.h"
@@ -42,12 +41,6 @@ Observation make_observation(const Rig& rig, const Eigen::Vector2d& ray, const K
   return seen;
 }
 
-Descriptors select(const Descriptors& all, const std::vector<std::size_t>& kept) {
-  Descriptors some(all.norm(), all.bytes(), kept.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) std::memcpy(some.row(i), all.row(kept[i]), all.stride());
-  return some;
-}
-
 /// A frame whose features are not there yet.
 ObservedFrame begin_frame(const Frame& frame) {
   return {frame.id, frame.stamp_ns, {}, {}, {}};
@@ -76,6 +69,8 @@ void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
                   depth.jump_sigmas);
   check_parameter(stereo.min_disparity_sigmas >= 0, "stereo.min_disparity_sigmas",
                   "standard deviations from 0", stereo.min_disparity_sigmas);
+  check_parameter(std::abs(stereo.min_correlation) <= 1, "stereo.min_correlation", "a correlation from -1 to 1",
+                  stereo.min_correlation);
   check_parameter(stereo.sigma_floor_px >= 0, "stereo.sigma_floor_px", "pixels from 0",
                   stereo.sigma_floor_px);
 }
@@ -124,6 +119,8 @@ ObservedFrame Observer::observe_stereo(const Frame& frame) const {
   const Features right = extractor_->extract(frame.right);
   StereoMatchOptions matching;
   matching.min_depth = stereo_.min_depth;
+  matching.min_correlation = stereo_.min_correlation;
+  matching.search_images = stereo_.search_images;
   const auto matches = match_stereo(rig_, {left, frame.gray}, {right, frame.right}, matching);
   ObservedFrame observed = begin_frame(frame);
   for (std::size_t i = 0; i < left.keypoints.size(); ++i) {

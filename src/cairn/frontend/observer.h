@@ -25,6 +25,8 @@ struct DepthNoise {
 /// How the left-right matches of a stereo sequence become disparities.
 struct StereoNoise {
   double min_depth = 0.5;             ///< metres: with the baseline, the largest disparity looked for
+  double min_correlation = 0.85;      ///< of the windows in both images; less is another thing or hidden
+  bool search_images = false;         ///< see StereoMatchOptions
   double min_disparity_sigmas = 4.0;  ///< a disparity of fewer standard deviations says nothing of the depth
   /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
   /// disparities of an image alike, which many features do not average out.

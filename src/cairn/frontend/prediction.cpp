@@ -2,6 +2,7 @@
 #include "cairn/frontend/prediction.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace cairn {
 namespace {
@@ -27,6 +28,15 @@ std::optional<PredictedPlace> predict_place(const FrameView& view, const Eigen::
   const double size = ratio * static_cast<double>(appearance.keypoint.size);
   const double sigma = std::max(1.0, ratio * static_cast<double>(appearance.keypoint.sigma_px));
   return PredictedPlace{pixel.x(), pixel.y(), radius_px * sigma, size / kMaxSizeRatio, size * kMaxSizeRatio};
+}
+
+Descriptors gather(std::span<const Appearance> appearances) {
+  if (appearances.empty()) return {};
+  const Descriptors& kind = *appearances.front().descriptors;
+  Descriptors rows(kind.norm(), kind.bytes(), appearances.size());
+  for (std::size_t i = 0; i < appearances.size(); ++i)
+    std::memcpy(rows.row(i), appearances[i].descriptors->row(appearances[i].row), rows.stride());
+  return rows;
 }
 
 }  // namespace cairn

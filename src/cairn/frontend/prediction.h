@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 
 #include "cairn/features/guided_matching.h"
 #include "cairn/map/observed_frame.h"
@@ -30,5 +31,8 @@ struct FrameView {
 [[nodiscard]] std::optional<PredictedPlace> predict_place(const FrameView& view,
                                                           const Eigen::Vector3d& point_in_world,
                                                           const Appearance& appearance, double radius_px);
+
+/// The descriptors, in this order; all of one kind.
+[[nodiscard]] Descriptors gather(std::span<const Appearance> appearances);
 
 }  // namespace cairn

@@ -112,7 +112,7 @@ TEST(MapDamage, refuses_a_bad_map_json) {
       bad_info("image size below 0", "\"width\": 0", "\"width\": -1",
                "expected a width and height of 0 or more, found -1 and 0"),
       bad_info("origin off the Earth", "\"rig\"",
-               "\"origin\": {\"latitude_deg\": 91, \"longitude_deg\": 0, \"height\": 0}, \"rig\"",
+               "\"origin\": {\"latitude_deg\": 91, \"longitude_deg\": 0, \"height_m\": 0}, \"rig\"",
                "expected a latitude within 90 degrees and a longitude within 180, found 91 and 0"),
       bad_info("settings are no text", "\"settings\": \"\"", "\"settings\": 5", "a text for 'settings'"),
       bad_info("no rig", "\"rig\"", "\"ship\"", "expected 'rig', found nothing of that name"),

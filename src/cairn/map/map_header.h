@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cairn/features/features.h"
+#include "cairn/geometry/geodetic.h"
 #include "cairn/geometry/rig.h"
 
 namespace cairn {
@@ -15,14 +16,6 @@ struct DescriptorKind {
   std::string name = "ORB";  ///< as in FeatureOptions
   Norm norm = Norm::hamming;
   std::uint32_t bytes = 0;  ///< 0 where no descriptor has been seen yet
-};
-
-/// A place on the Earth (WGS 84) that is the origin of a map's world, whose axes point east, north and up.
-struct GeodeticOrigin {
-  double latitude_deg = 0;   ///< -90 to 90
-  double longitude_deg = 0;  ///< -180 to 180
-  double height = 0;         ///< metres above the ellipsoid
-  bool operator==(const GeodeticOrigin&) const = default;
 };
 
 /// What is true of a whole map.

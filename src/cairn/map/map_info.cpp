@@ -34,8 +34,8 @@ std::string quoted(const std::string& text) {
 }
 
 std::string format_origin(const GeodeticOrigin& origin) {
-  return fmt::format("{{\"latitude_deg\": {}, \"longitude_deg\": {}, \"height\": {}}}", origin.latitude_deg,
-                     origin.longitude_deg, origin.height);
+  return fmt::format("{{\"latitude_deg\": {}, \"longitude_deg\": {}, \"height_m\": {}}}", origin.latitude_deg,
+                     origin.longitude_deg, origin.height_m);
 }
 
 std::string format_checksums(const MapInfo& info) {
@@ -142,7 +142,7 @@ class MapInfoReader {
 
   GeodeticOrigin read_origin(const Json& json) const {
     const GeodeticOrigin origin{number_member(json, "latitude_deg"), number_member(json, "longitude_deg"),
-                                number_member(json, "height")};
+                                number_member(json, "height_m")};
     if (!(std::abs(origin.latitude_deg) <= 90 && std::abs(origin.longitude_deg) <= 180))
       fail("a latitude within 90 degrees and a longitude within 180",
            fmt::format("{} and {}", origin.latitude_deg, origin.longitude_deg));

@@ -27,12 +27,6 @@ void subtract_product(const Eigen::Matrix<double, 6, 3>& a, const Eigen::Matrix<
 
 }  // namespace
 
-bool PointSums::determine_point() const {
-  constexpr double kSmallestShare = 1e-9;
-  const double mean = information.trace() / 3.0;
-  return information.determinant() > kSmallestShare * mean * mean * mean;
-}
-
 BundleEquations::BundleEquations(const Rig& rig, const BundleStructure& structure,
                                  const BundleOptions& options, const Executor& executor)
     : rig_(rig),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/LU>
 #include <cstdint>
 
 #include "cairn/optimize/bundle_adjustment.h"
@@ -83,6 +84,14 @@ class TermExpansion {
   Eigen::Vector3d error_, weights_;  // e and the diagonal of W
 };
 
+/// Whether an information matrix of a point, by its trace and determinant, determines it: not where its smallest
+/// eigenvalue is about a billionth of its largest, which is a parallax of 3e-5 radians.
+[[nodiscard]] inline bool determines_point(double trace, double determinant) {
+  constexpr double kSmallestShare = 1e-9;
+  const double mean = trace / 3.0;
+  return determinant > kSmallestShare * mean * mean * mean;
+}
+
 /// Information and gradient of a point in the world: V and g.
 struct PointSums {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -97,9 +106,9 @@ struct PointSums {
     return expansion.transposed_times(weighted);
   }
 
-  /// Not where the information's smallest eigenvalue is about a billionth of its largest, which is a parallax
-  /// of 3e-5 radians.
-  [[nodiscard]] bool determine_point() const;
+  [[nodiscard]] bool determine_point() const {
+    return determines_point(information.trace(), information.determinant());
+  }
 };
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/unit_rotation.h"
 #include "cairn/sequence/yaml_mapping.h"
 
 namespace cairn {
@@ -70,6 +71,8 @@ Camera parse_camera(const YamlMapping& mapping) {
 
 const std::vector<std::string> kCameraKeys{"model", "width", "height", "fx", "fy", "cx", "cy", "distortion"};
 
+const std::vector<std::string> kTransformKeys{"translation", "quaternion_xyzw"};
+
 Rigid3 parse_transform(const YamlMapping& mapping) {
   const auto t = mapping.get<std::vector<double>>("translation", "three numbers, metres");
   const auto q = mapping.get<std::vector<double>>("quaternion_xyzw", "four numbers");
@@ -79,7 +82,7 @@ Rigid3 parse_transform(const YamlMapping& mapping) {
   mapping.check(transform.translation.allFinite(), "translation", "finite numbers");
   mapping.check(std::abs(transform.rotation.norm() - 1.0) < 0.01, "quaternion_xyzw",
                 "a quaternion of length 1");
-  transform.rotation.normalize();
+  transform.rotation = unit_rotation(transform.rotation);
   return transform;
 }
 
@@ -96,8 +99,7 @@ DepthCalibration parse_depth(const YamlMapping& mapping) {
   }
   if (mapping.has("camera")) depth.camera = parse_camera(mapping.sub("camera", kCameraKeys));
   if (mapping.has("camera_from_depth")) {
-    depth.camera_from_depth =
-        parse_transform(mapping.sub("camera_from_depth", {"translation", "quaternion_xyzw"}));
+    depth.camera_from_depth = parse_transform(mapping.sub("camera_from_depth", kTransformKeys));
   }
   return depth;
 }
@@ -111,10 +113,15 @@ void parse_right(const YamlMapping& mapping, Calibration& calibration) {
   mapping.check(!mapping.has("baseline"), "baseline", "either 'baseline' or 'camera'; no value");
   mapping.check(!calibration.depth, "camera", "'baseline' instead, as there is 'depth'; nothing");
   mapping.expect("left_from_right", "where the right camera sits");
-  const YamlMapping transform = mapping.sub("left_from_right", {"translation", "quaternion_xyzw"});
+  const YamlMapping transform = mapping.sub("left_from_right", kTransformKeys);
   set_raw_stereo({calibration.camera, parse_camera(mapping.sub("camera", kCameraKeys)),
                   LeftFromRight(parse_transform(transform))},
                  {transform.file(), transform.line()}, calibration);
+}
+
+Rigid3 parse_body(const YamlMapping& mapping) {
+  mapping.expect("body_from_camera", "where the camera sits on the body");
+  return parse_transform(mapping.sub("body_from_camera", kTransformKeys));
 }
 
 std::string format_transform(const Rigid3& transform) {
@@ -174,9 +181,16 @@ void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calib
   calibration.raw_stereo = RawStereo{pair, rectification};
 }
 
+Rigid3 body_from_loaded_camera(const Calibration& calibration, const Rigid3& body_from_camera) {
+  if (!calibration.raw_stereo) return body_from_camera;
+  const Rigid3 left_from_rectified{calibration.raw_stereo->rectification.rectified_from_left.conjugate(),
+                                   Eigen::Vector3d::Zero()};
+  return body_from_camera * left_from_rectified;
+}
+
 Calibration read_calibration(const std::filesystem::path& path) {
   const YamlMapping mapping(path.string(), "calibration", load_yaml(path),
-                            {"camera", "right", "depth", "poses_are", "rate_hz"});
+                            {"camera", "right", "depth", "body", "poses_are", "rate_hz"});
   Calibration calibration;
   mapping.expect("camera", "the colour or left camera");
   calibration.camera = parse_camera(mapping.sub("camera", kCameraKeys));
@@ -186,6 +200,8 @@ Calibration read_calibration(const std::filesystem::path& path) {
   }
   if (mapping.has("right"))
     parse_right(mapping.sub("right", {"baseline", "camera", "left_from_right"}), calibration);
+  if (mapping.has("body"))
+    calibration.body_from_camera = parse_body(mapping.sub("body", {"body_from_camera"}));
   if (mapping.has("poses_are")) {
     const auto which = mapping.get<std::string>("poses_are", "camera or depth");
     mapping.check(which == "camera" || which == "depth", "poses_are", "camera or depth");
@@ -217,6 +233,8 @@ std::string format_calibration(const Calibration& calibration) {
       text += fmt::format("  camera_from_depth: {}\n", format_transform(depth.camera_from_depth));
     }
   }
+  if (calibration.body_from_camera)
+    text += fmt::format("body:\n  body_from_camera: {}\n", format_transform(*calibration.body_from_camera));
   if (calibration.poses_are == PosesAre::depth) text += "poses_are: depth\n";
   return text + fmt::format("rate_hz: {}\n", calibration.rate_hz);
 }

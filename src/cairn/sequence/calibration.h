@@ -36,7 +36,10 @@ struct Calibration {
   std::optional<RawStereo> raw_stereo;    ///< where the images on disk are not rectified
   std::optional<DepthCalibration> depth;  ///< RGB-D
   PosesAre poses_are = PosesAre::camera;  ///< which camera the given poses belong to
-  double rate_hz = 30.0;                  ///< for formats without time stamps
+  /// Where the camera sits on the body whose poses are given (lever arm and boresight), in the body's axes;
+  /// of a raw stereo pair the left camera as it was recorded.
+  std::optional<Rigid3> body_from_camera;
+  double rate_hz = 30.0;  ///< for formats without time stamps
 };
 
 /// Where something of a calibration stands, for messages; line 0 where it means nothing.
@@ -48,6 +51,10 @@ struct CalibrationPlace {
 /// Rectifies a pair: sets camera, baseline and raw_stereo. InputError that names `place` for cameras that
 /// make no pair: in one place, right and left exchanged, without a view in common.
 void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calibration& calibration);
+
+/// Where the camera whose images FrameLoader gives sits on a body that has the recorded one at
+/// `body_from_camera`: rectification turns it.
+[[nodiscard]] Rigid3 body_from_loaded_camera(const Calibration& calibration, const Rigid3& body_from_camera);
 
 /// InputError with the line for an unknown key, a missing one, fx = 0, a scale of 0, a wrong type.
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& path);

@@ -189,6 +189,14 @@ TEST_F(CalibrationTest, wrong_lists_are_refused_by_line) {
       {with("translation: [-0.02, 0, 0.01], ", ""), 8,
        "expected 'translation' in 'camera_from_depth' (three numbers, metres), found none.\n  Add "
        "'translation'."},
+      {std::string(kCamera) + "body: {lever: 1}", 2,
+       "expected a known key in 'body', found 'lever'.\n  Did you mean 'body_from_camera'?"},
+      {std::string(kCamera) + "body: {}", 2,
+       "expected 'body_from_camera' in 'body' (where the camera sits on the body), found none.\n  Add "
+       "'body_from_camera'."},
+      {std::string(kCamera) + "body: {body_from_camera: {translation: [0, 0, 0]}}", 2,
+       "expected 'quaternion_xyzw' in 'body_from_camera' (four numbers), found none.\n  Add "
+       "'quaternion_xyzw'."},
   };
   for (const Case& broken : cases) expect_refused(folder_, broken);
 }
@@ -205,12 +213,18 @@ TEST_F(CalibrationTest, format_is_read_back) {
   calibrations[1].camera.distortion = {1.0 / 3.0, 1e-17, -2, 0, 0};
   calibrations[1].depth =
       DepthCalibration{1.0 / 7.0, {0, 9}, std::nullopt, {rotation_exp({1, 2, 3}), {4, 5, 6}}};
+  calibrations[2].body_from_camera = Rigid3{rotation_exp({0.3, -1, 2}), {1.5, 1.0 / 3.0, -0.2}};
   for (const Calibration& calibration : calibrations) {
     const Calibration back = read(format_calibration(calibration));
     expect_same(back.camera, calibration.camera);
     EXPECT_EQ(back.baseline, calibration.baseline);
     EXPECT_EQ(back.poses_are, calibration.poses_are);
     EXPECT_EQ(back.rate_hz, calibration.rate_hz);
+    ASSERT_EQ(back.body_from_camera.has_value(), calibration.body_from_camera.has_value());
+    if (back.body_from_camera) {
+      EXPECT_EQ(back.body_from_camera->translation, calibration.body_from_camera->translation);
+      EXPECT_EQ(back.body_from_camera->rotation.coeffs(), calibration.body_from_camera->rotation.coeffs());
+    }
     ASSERT_EQ(back.depth.has_value(), calibration.depth.has_value());
     if (!back.depth) continue;
     EXPECT_EQ(back.depth->scale, calibration.depth->scale);

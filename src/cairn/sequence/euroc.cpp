@@ -9,6 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/sequence/asl_poses.h"
 #include "cairn/sequence/asl_sensor.h"
 #include "cairn/sequence/association.h"
 #include "cairn/sequence/formats.h"
@@ -22,20 +23,6 @@ fs::path root_of(const fs::path& folder) {
   return fs::is_directory(folder / "mav0") ? folder / "mav0" : folder;
 }
 
-/// The stamp in a line's first field; stamps increase.
-std::int64_t stamp_in(const TextFile& file, const TextLine& line, const std::int64_t* before) {
-  std::int64_t stamp_ns = 0;
-  if (!parse_integer(line.fields[0], stamp_ns)) {
-    file.fail(line, "a time stamp in whole nanoseconds", fmt::format("'{}'", line.fields[0]),
-              "Mend or delete the line.");
-  }
-  if (before != nullptr && stamp_ns <= *before) {
-    file.fail(line, fmt::format("a time stamp after {}", *before), fmt::format("{}", stamp_ns),
-              "Sort the file by time and remove double stamps.");
-  }
-  return stamp_ns;
-}
-
 /// One camera's images, as its data.csv lists them.
 struct ImageList {
   std::vector<std::int64_t> stamps;
@@ -47,7 +34,8 @@ ImageList read_images(const fs::path& camera_folder) {
   ImageList images;
   for (const TextLine& line : file.lines()) {
     file.expect_fields(line, 2, "stamp in nanoseconds, file name");
-    images.stamps.push_back(stamp_in(file, line, images.stamps.empty() ? nullptr : &images.stamps.back()));
+    images.stamps.push_back(
+        parse_asl_stamp(file, line, images.stamps.empty() ? nullptr : &images.stamps.back()));
     images.paths.push_back(camera_folder / "data" / std::string(line.fields[1]));
   }
   return images;
@@ -73,31 +61,11 @@ void pair_images(const fs::path& root, double max_gap_s, Sequence& sequence) {
                     "Check that both cameras have one clock."});
 }
 
-Rigid3 parse_pose(const TextFile& file, const TextLine& line) {
-  constexpr std::string_view kLayout = "stamp, px, py, pz, qw, qx, qy, qz, ...";
-  const std::size_t given = line.fields.size();
-  if (given < 8) file.expect_fields(line, 8, kLayout);
-  const auto value = [&](std::size_t i, std::string_view name) { return file.number(line, i, name); };
-  const Eigen::Quaterniond rotation(value(4, "qw"), value(5, "qx"), value(6, "qy"), value(7, "qz"));
-  constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout of the columns does not
-  if (!(std::abs(rotation.norm() - 1.0) <= kMaxDeviation)) {
-    file.fail(line, "a quaternion of length 1", fmt::format("one of length {:.4g}", rotation.norm()),
-              fmt::format("Check the order of the columns: {}.", kLayout));
-  }
-  return {rotation.normalized(), {value(1, "px"), value(2, "py"), value(3, "pz")}};
-}
-
 /// Poses of the left camera, before rectification.
-Trajectory read_truth(const fs::path& truth_folder, const Rigid3& body_from_left) {
-  const fs::path sensor = truth_folder / "sensor.yaml";
-  const Rigid3 body_from_tracked = fs::exists(sensor) ? read_body_from_sensor(sensor) : Rigid3{};
-  const Rigid3 tracked_from_left = body_from_tracked.inverse() * body_from_left;
-  const TextFile file(truth_folder / "data.csv", Separator::commas);
+Trajectory read_truth(const fs::path& poses, const Rigid3& body_from_left) {
   Trajectory truth;
-  for (const TextLine& line : file.lines()) {
-    const std::int64_t stamp_ns = stamp_in(file, line, truth.empty() ? nullptr : &truth.back().stamp_ns);
-    truth.push_back({stamp_ns, WorldFromCamera(parse_pose(file, line) * tracked_from_left)});
-  }
+  for (const auto& [stamp_ns, world_from_body] : read_asl_poses(poses))
+    truth.push_back({stamp_ns, WorldFromCamera(world_from_body * body_from_left)});
   return truth;
 }
 
@@ -114,13 +82,15 @@ void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence
   pair_images(root, options.max_stamp_gap_s, sequence);
   const fs::path left = root / "cam0/sensor.yaml", right = root / "cam1/sensor.yaml";
   if (sequence.calibration_source.empty()) {
-    const LeftFromRight left_from_right(read_body_from_sensor(left).inverse() * read_body_from_sensor(right));
+    const Rigid3 body_from_left = read_body_from_sensor(left);
+    sequence.calibration.body_from_camera = body_from_left;
+    const LeftFromRight left_from_right(body_from_left.inverse() * read_body_from_sensor(right));
     set_raw_stereo({read_asl_camera(left), read_asl_camera(right), left_from_right}, {right.string()},
                    sequence.calibration);
     sequence.calibration_source = fmt::format("{} and cam1", left.string());
   }
-  const fs::path truth = root / "state_groundtruth_estimate0";
-  if (fs::exists(truth / "data.csv")) sequence.truth = read_truth(truth, read_body_from_sensor(left));
+  const fs::path truth = root / "state_groundtruth_estimate0/data.csv";
+  if (fs::exists(truth)) sequence.truth = read_truth(truth, read_body_from_sensor(left));
 }
 
 }  // namespace cairn

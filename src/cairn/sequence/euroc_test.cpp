@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cairn/sequence/asl_sensor.h"
+#include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/test_sequence.h"
 #include "cairn/sequence/test_stereo.h"
 
@@ -136,14 +137,14 @@ TEST_F(EurocTest, frames_come_rectified) {
 
 TEST_F(EurocTest, truth_is_of_the_rectified_left_camera) {
   const Sequence sequence = open_sequence(folder_);
-  const auto poses = poses_of_frames(sequence, "");
+  const auto poses = poses_of_frames(sequence);
   const Eigen::Quaterniond& rectified_from_left =
       sequence.calibration.raw_stereo->rectification.rectified_from_left;
   for (int i = 0; i < kFrames; ++i) {
     const auto& found = poses[static_cast<std::size_t>(i)];
     ASSERT_TRUE(found);
     const Rigid3 wanted = world_from_left_at(i) * Rigid3{rectified_from_left, {0, 0, 0}}.inverse();
-    EXPECT_LT(left_perturbation(wanted, *found).norm(), 1e-9);
+    EXPECT_LT(left_perturbation(wanted, *found).norm(), 1e-6);  // the stamps differ by 128 ns
   }
 }
 

@@ -101,23 +101,6 @@ std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
                     fmt::format("{}", stamps.size()), "Add or delete lines, or images."});
 }
 
-WorldFromCamera parse_pose(const TextFile& file, const TextLine& line) {
-  file.expect_fields(line, 12, "3x4 world_from_camera by rows");
-  Eigen::Matrix<double, 3, 4> m;
-  for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i), "the pose");
-  const Eigen::Matrix3d r = m.leftCols<3>();
-  constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout does not
-  const double deviation = deviation_from_rotation(r);
-  if (deviation > kMaxDeviation) {
-    file.fail(line, "a rotation in columns 1-3, 5-7, 9-11",
-              std::isinf(deviation)
-                  ? "a matrix that mirrors"
-                  : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
-              "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
-  }
-  return WorldFromCamera({nearest_rotation(r), m.col(3)});
-}
-
 Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& stamps) {
   const TextFile file(path);
   if (file.lines().size() != stamps.size()) {
@@ -126,7 +109,7 @@ Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& sta
   }
   Trajectory trajectory;
   for (std::size_t i = 0; i < stamps.size(); ++i)
-    trajectory.push_back({stamps[i], parse_pose(file, file.lines()[i])});
+    trajectory.push_back({stamps[i], parse_matrix_pose(file, file.lines()[i])});
   return trajectory;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/test_sequence.h"
 
 namespace cairn {
@@ -67,7 +68,7 @@ TEST_F(RecordingsTest, fr1_desk_excerpt) {
   EXPECT_EQ(sequence.frames[0].stamp_ns, 1'305'031'453'359'684'000);
   EXPECT_EQ(sequence.calibration.camera.fx, 517.3);
   EXPECT_LT(sequence.report.max_stamp_gap_s, 0.02);
-  const auto poses = poses_of_frames(sequence, "");
+  const auto poses = poses_of_frames(sequence);
   EXPECT_EQ(std::count(poses.begin(), poses.end(), std::nullopt), 0);
   const Frame frame = FrameLoader(sequence).load(FrameId{8});
   EXPECT_EQ(frame.depth.height(), 480);
@@ -81,7 +82,7 @@ TEST_F(RecordingsTest, five_views) {
   ASSERT_EQ(sequence.frames.size(), 5U);
   EXPECT_EQ(sequence.frames[1].number, 144);
   for (const fs::path& path : {fs::path(), folder() / "trajectory.txt"}) {
-    const auto poses = poses_of_frames(sequence, path);
+    const auto poses = poses_of_frames(sequence, {.path = path});
     ASSERT_TRUE(poses[4]);
     EXPECT_NEAR(poses[4]->translation.x(), -1.55819, 1e-9);
   }

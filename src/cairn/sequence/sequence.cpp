@@ -124,6 +124,7 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
     if (options.start_index && files.number < *options.start_index) continue;
     if (options.end_index && files.number > *options.end_index) continue;
     kept.push_back(files);
+    kept.back().position = i;
   }
   if (kept.empty()) {
     throw InputError({sequence.folder.string(), 0, "at least one frame",
@@ -131,6 +132,7 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
                       count == 0 ? "Check that colour and depth images are there."
                                  : "Widen --frames, --without, start_index or end_index."});
   }
+  sequence.listed = count;
   sequence.frames = std::move(kept);
 }
 
@@ -139,13 +141,10 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
 void move_truth_to_camera(Sequence& sequence) {
   const Calibration& calibration = sequence.calibration;
   if (!sequence.truth) return;
-  Rigid3 given_from_camera;
-  if (calibration.poses_are == PosesAre::depth && calibration.depth)
-    given_from_camera = calibration.depth->camera_from_depth.inverse();
-  else if (calibration.raw_stereo)
-    given_from_camera.rotation = calibration.raw_stereo->rectification.rectified_from_left.conjugate();
-  else
-    return;
+  const bool of_depth = calibration.poses_are == PosesAre::depth && calibration.depth;
+  if (!of_depth && !calibration.raw_stereo) return;
+  const Rigid3 given_from_camera = of_depth ? calibration.depth->camera_from_depth.inverse()
+                                            : body_from_loaded_camera(calibration, Rigid3{});
   for (StampedPose& pose : *sequence.truth)
     pose.world_from_camera = WorldFromCamera(pose.world_from_camera * given_from_camera);
 }

@@ -23,6 +23,7 @@ struct FrameFiles {
   std::filesystem::path color;
   std::filesystem::path depth;
   std::filesystem::path right;
+  std::int64_t position = 0;  ///< in the recording, before frames were chosen
 };
 
 /// How the frames were found, for `cairn info` and warnings.
@@ -43,6 +44,7 @@ struct Sequence {
   Calibration calibration;
   std::string calibration_source;  ///< where the calibration comes from, for people
   std::vector<FrameFiles> frames;  ///< stamps strictly increasing
+  std::int64_t listed = 0;         ///< frames of the recording, before they were chosen
   /// world_from_camera of the colour (rectified left) camera, where the format carries it.
   std::optional<Trajectory> truth;
   SequenceReport report;
@@ -68,15 +70,6 @@ struct SequenceOptions {
 /// Finds out the format and lists the frames. InputError for whatever is wrong.
 [[nodiscard]] Sequence open_sequence(const std::filesystem::path& folder,
                                      const SequenceOptions& options = {});
-
-/// The poses a user names by --poses, or the sequence's own truth when `path` is empty: world_from_camera,
-/// one for each frame that has one (nullopt elsewhere). A file's poses are of the camera whose images
-/// FrameLoader gives. TUM files are associated by time (nearest, at most `max_gap_s`); a file whose first
-/// column holds whole numbers belongs to the frames of these numbers, except in a TUM sequence, which has
-/// none. InputError where no frame gets a pose.
-[[nodiscard]] std::vector<std::optional<WorldFromCamera>> poses_of_frames(const Sequence& sequence,
-                                                                          const std::filesystem::path& path,
-                                                                          double max_gap_s = 0.02);
 
 /// One decoded frame.
 struct Frame {

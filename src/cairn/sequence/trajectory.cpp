@@ -49,6 +49,23 @@ StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size
   return pose;
 }
 
+WorldFromCamera parse_matrix_pose(const TextFile& file, const TextLine& line) {
+  file.expect_fields(line, 12, "3x4 world_from_camera by rows");
+  Eigen::Matrix<double, 3, 4> m;
+  for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = file.number(line, static_cast<std::size_t>(i), "the pose");
+  const Eigen::Matrix3d r = m.leftCols<3>();
+  constexpr double kMaxDeviation = 0.01;  // rounding passes, another layout does not
+  const double deviation = deviation_from_rotation(r);
+  if (deviation > kMaxDeviation) {
+    file.fail(line, "a rotation in columns 1-3, 5-7, 9-11",
+              std::isinf(deviation)
+                  ? "a matrix that mirrors"
+                  : fmt::format("a matrix that is none (R^T R differs from 1 by {:.2g})", deviation),
+              "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
+  }
+  return WorldFromCamera({nearest_rotation(r), m.col(3)});
+}
+
 Trajectory read_tum_trajectory(const std::filesystem::path& path) {
   const TextFile file(path);
   Trajectory trajectory;

@@ -24,6 +24,10 @@ using Trajectory = std::vector<StampedPose>;
 /// quaternion whose length is not 1 to a hundredth.
 [[nodiscard]] StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size_t first);
 
+/// The pose in the 12 fields of a line: 3x4 world_from_camera by rows, as KITTI has it. InputError names the
+/// line for a wrong number of values, what is no number, or no rotation.
+[[nodiscard]] WorldFromCamera parse_matrix_pose(const TextFile& file, const TextLine& line);
+
 /// TUM format: `t tx ty tz qx qy qz qw` a line, t in seconds, '#' comments. InputError names the line for
 /// what parse_tum_pose refuses, a wrong number of values or a stamp that does not increase.
 [[nodiscard]] Trajectory read_tum_trajectory(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/text.h"
 #include "cairn/image/codec.h"
+#include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sensor_noise.h"
 
 namespace cairn {

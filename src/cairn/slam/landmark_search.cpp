@@ -2,22 +2,8 @@
 #include "cairn/slam/landmark_search.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace cairn {
-namespace {
-
-Descriptors gather(const std::vector<Appearance>& appearances) {
-  if (appearances.empty()) return {};
-  const Descriptors& kind = *appearances.front().descriptors;
-  Descriptors rows(kind.norm(), kind.bytes(), appearances.size());
-  for (std::size_t i = 0; i < appearances.size(); ++i)
-    std::memcpy(rows.row(i), appearances[i].descriptors->row(appearances[i].row), rows.stride());
-  return rows;
-}
-
-}  // namespace
-
 Appearance nearest_appearance(const Map& map, const Landmark& landmark,
                               const Eigen::Vector3d& centre_in_world) {
   const auto distance = [&](const Sighting& sighting) {

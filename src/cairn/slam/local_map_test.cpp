@@ -16,7 +16,7 @@ Map chain() {
   for (std::int32_t k = 0; k < 5; ++k) {
     const KeyframeId id = map.add_keyframe(test::blank_frame(30), {}, {k - 1}, 0);
     for (std::int32_t i = 0; i < 30; ++i) {
-      LandmarkId& landmark = landmarks[static_cast<std::size_t>(10 * k + i)];
+      LandmarkId& landmark = landmarks[static_cast<std::size_t>(k) * 10 + static_cast<std::size_t>(i)];
       if (landmark.valid()) {
         map.add_sighting(landmark, {id, i});
       } else {

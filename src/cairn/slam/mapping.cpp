@@ -2,7 +2,6 @@
 #include "cairn/slam/mapping.h"
 
 #include <algorithm>
-#include <cstring>
 #include <optional>
 
 #include "cairn/geometry/triangulation.h"
@@ -32,17 +31,15 @@ struct OpenFeatures {
 OpenFeatures open_features(const Keyframe& keyframe) {
   const Features& all = keyframe.observed.features;
   OpenFeatures open;
+  std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
     const bool has_depth = keyframe.observed.points_in_camera[i].allFinite();
-    if (!has_depth && !keyframe.landmarks[i].valid()) open.indices.push_back(static_cast<std::int32_t>(i));
-  }
-  open.features.descriptors =
-      Descriptors(all.descriptors.norm(), all.descriptors.bytes(), open.indices.size());
-  for (std::size_t k = 0; k < open.indices.size(); ++k) {
-    const auto i = static_cast<std::size_t>(open.indices[k]);
+    if (has_depth || keyframe.landmarks[i].valid()) continue;
+    rows.push_back(i);
+    open.indices.push_back(static_cast<std::int32_t>(i));
     open.features.keypoints.push_back(all.keypoints[i]);
-    std::memcpy(open.features.descriptors.row(k), all.descriptors.row(i), all.descriptors.stride());
   }
+  open.features.descriptors = select(all.descriptors, rows);
   return open;
 }
 

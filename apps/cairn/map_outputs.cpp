@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "map_outputs.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "common.h"
+
+namespace cairn::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double ratio(std::int64_t a, std::int64_t b) {
+  return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
+}
+
+Json to_json(const SurveyResult& result) {
+  const SurveyCounts& counts = result.counts;
+  Json json;
+  json["frames"] = {{"mapped", counts.frames},
+                    {"without_pose", counts.without_pose},
+                    {"standing", counts.standing},
+                    {"unreadable", counts.unreadable}};
+  json["features"] = {
+      {"found", counts.features}, {"with_depth", counts.measured}, {"matched_to_tracks", counts.matched}};
+  json["tracks"] = {
+      {"finished", counts.tracks}, {"too_short", counts.too_short}, {"contradictory", counts.contradictory}};
+  for (std::size_t i = 0; i < kCleaningRules; ++i)
+    json["cleaned"][std::string(to_string(static_cast<CleaningRule>(i)))] = counts.cleaned[i];
+  json["merged"] = counts.merged;
+  json["landmarks"] = counts.landmarks;
+  json["sightings"] = counts.sightings;
+  json["dropped_sightings"] = counts.dropped_sightings;
+  json["noise"] = {{"variance_factor", result.noise.scale}, {"degrees_of_freedom", result.noise.freedom}};
+  json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
+  return json;
+}
+
+/// What fell to the rules, most first mentioned as they are asked for; rules to which none fell are left out.
+std::string describe_cleaning(const SurveyCounts& counts) {
+  constexpr std::array<const char*, kCleaningRules> kWords = {
+      "seen in too few frames", "too uncertain", "residuals too large", "rays too parallel",
+      "depth out of range",     "too far away",  "too far aside",       "seen too obliquely"};
+  std::string text;
+  for (std::size_t i = 0; i < kCleaningRules; ++i) {
+    if (counts.cleaned[i] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts.cleaned[i], kWords[i]);
+  }
+  return text.empty() ? "none fell to a rule" : text;
+}
+
+void print_frames(const SurveyCounts& counts, const MapSummary& summary) {
+  fmt::print("frames       {} of {} mapped", counts.frames, summary.sequence_frames);
+  if (counts.without_pose > 0) fmt::print(", {} without pose", counts.without_pose);
+  if (counts.standing > 0) fmt::print(", {} without motion", counts.standing);
+  if (counts.unreadable > 0) fmt::print(", {} unreadable", counts.unreadable);
+  fmt::print("\n");
+}
+
+}  // namespace
+
+std::string format_map_report(const SurveyResult& result) {
+  return to_json(result).dump(2) + "\n";
+}
+
+std::string format_map_json(const SurveyResult& result, const MapSummary& summary) {
+  Json json;
+  json["cairn"] = CAIRN_VERSION;
+  json["map"] = summary.folder;
+  json["poses"] = summary.poses_format;
+  json["stopped"] = result.stopped;
+  json["resumed_at"] = result.resumed_at;
+  json.update(to_json(result));
+  const SurveyTimes& times = result.times;
+  json["threads"] = summary.threads;
+  json["seconds"] = {{"total", summary.total_seconds}, {"decode", times.decode},
+                     {"features", times.features},     {"matching", times.matching},
+                     {"adjustment", times.adjustment}, {"merging", times.merging},
+                     {"writing", times.writing}};
+  json["peak_memory_mb"] = peak_memory_mb();
+  return json.dump(2) + "\n";
+}
+
+void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
+  const SurveyCounts& counts = result.counts;
+  print_frames(counts, summary);
+  if (result.resumed_at > 0) fmt::print("resumed      at frame {} of the sequence\n", result.resumed_at);
+  fmt::print("poses        {}", summary.poses_format);
+  if (result.moved_rms_m > 0)
+    fmt::print(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
+               100 * result.moved_rms_m, result.turned_rms_deg);
+  fmt::print("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
+             ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
+             ratio(counts.matched, counts.frames));
+  fmt::print("tracks       {}, {} in too few frames, {} contradict themselves\n", counts.tracks,
+             counts.too_short, counts.contradictory);
+  fmt::print("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
+  fmt::print("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
+             ratio(counts.sightings, counts.landmarks));
+  fmt::print("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
+  fmt::print("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
+             1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));
+  fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace cairn {
+
+/// Where the origin of a georeferenced world lies on the Earth (WGS 84); its axes are east, north and up
+/// there.
+struct GeodeticOrigin {
+  double latitude_deg = 0;   ///< -90 to 90
+  double longitude_deg = 0;  ///< -180 to 180
+  double height_m = 0;       ///< above the ellipsoid
+  bool operator==(const GeodeticOrigin&) const = default;
+};
+
+}  // namespace cairn

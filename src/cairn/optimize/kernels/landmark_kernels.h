@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/features/kernels/dispatch.h"
+
+namespace cairn {
+
+constexpr int kSightingLanes = 8;  ///< sightings side by side, the widest vector of doubles
+
+/// Eight sightings of one landmark; lane i of every array is the i-th one's. With R the rotation
+/// camera_from_world, c the camera's centre, q = X - c, and s, t the inverse standard deviations of pixels
+/// and disparity, the errors of the point X in standard deviations are
+///
+///     (u . q) / (axis . q),   u = s (fx R_0 - (seen u - cx) R_2)
+///     (v . q) / (axis . q),   v = s (fy R_1 - (seen v - cy) R_2)
+///     disparity_scale / (axis . q) - disparity,   with axis = R_2, t fx baseline and t times the seen one.
+///
+/// A lane without a sighting has the axis and centre of another one, and zeros.
+struct alignas(64) SightingBlock {
+  double u[3][kSightingLanes];
+  double v[3][kSightingLanes];
+  double axis[3][kSightingLanes];
+  double centre[3][kSightingLanes];
+  double disparity_scale[kSightingLanes];
+  double disparity[kSightingLanes];
+};
+
+/// Half the cost to second order in the point: sums over the sightings. Matrices are xx, xy, xz, yy, yz, zz.
+struct LandmarkSums {
+  double information[6];  ///< J^T J
+  double curvature[6];    ///< what the second derivatives of the errors, times these, add to it
+  double gradient[3];     ///< J^T e
+  double squared_error;
+};
+
+/// A landmark's equations at `point`: of the errors e for `expand`; for `linearise` of equations linear in
+/// the point, the errors times depth over the depth of `point` (Hartley and Sturm 1997, sec. 5.2). Their
+/// values at `point` are the same. pixel_errors and errors get each lane's squared error, of (u, v) and of
+/// all, in variances. A sighting less than a micrometre in front of its camera has infinite squared errors,
+/// and then the derivatives mean nothing.
+using LandmarkExpansion = void(const SightingBlock* blocks, int count, const double* point,
+                               LandmarkSums* sums, double* pixel_errors, double* errors);
+
+struct LandmarkKernels {
+  LandmarkExpansion* expand;
+  LandmarkExpansion* linearise;
+};
+
+CAIRN_KERNEL_TABLES(LandmarkKernels, kLandmarkKernels)
+
+/// The kernels for `set`, which is available.
+[[nodiscard]] inline const LandmarkKernels& landmark_kernels(InstructionSet set = default_instruction_set()) {
+  return CAIRN_CHOOSE_KERNELS(set, kLandmarkKernels);
+}
+
+}  // namespace cairn

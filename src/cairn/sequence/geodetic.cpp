@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/sequence/geodetic.h"
+
+#include <GeographicLib/LocalCartesian.hpp>
+
+#include "cairn/core/error.h"
+
+namespace cairn {
+
+void move_to_origin(const GeodeticOrigin& origin, RecordedPoses& recorded) {
+  require(recorded.geodetic, "the poses are geodetic");
+  const GeographicLib::LocalCartesian local(origin.latitude_deg, origin.longitude_deg, origin.height_m);
+  std::vector<double> rows(9);  // origin's east, north, up from those at the place
+  for (RecordedPose& pose : recorded.poses) {
+    Eigen::Vector3d& place = pose.place;
+    local.Forward(place.x(), place.y(), place.z(), place.x(), place.y(), place.z(), rows);
+    const Eigen::Matrix3d turn = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
+    pose.rotation = (Eigen::Quaterniond(turn) * pose.rotation).normalized();
+    pose.place_covariance = turn * pose.place_covariance * turn.transpose();
+    pose.rotation_covariance = turn * pose.rotation_covariance * turn.transpose();
+  }
+  recorded.geodetic = false;
+}
+
+}  // namespace cairn

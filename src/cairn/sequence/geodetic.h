@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Private to this room.
+#pragma once
+
+#include "cairn/sequence/recorded_poses.h"
+
+namespace cairn {
+
+/// Geodetic poses become poses in metres east, north and up of the origin: places through the earth's centre,
+/// exact at any distance; rotations and covariances are turned from east, north, up at each place to those at
+/// the origin (WGS 84).
+void move_to_origin(const GeodeticOrigin& origin, RecordedPoses& recorded);
+
+}  // namespace cairn

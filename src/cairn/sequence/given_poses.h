@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cairn/geometry/framed.h"
+#include "cairn/geometry/geodetic.h"
+#include "cairn/sequence/sequence.h"
+
+namespace cairn {
+
+/// What is known of the error of a given pose, as covariances in the world's axes. With the error (c, w) the
+/// true centre of the camera is the given one plus c (metres), and its true rotation exp(w) times the given
+/// one (radians). What the poses do not state adds nothing.
+struct PoseUncertainty {
+  Eigen::Matrix3d position = Eigen::Matrix3d::Zero();  ///< E[c c^T]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();  ///< E[w w^T]
+  /// E[c w^T]: on a lever arm the centre moves with the body's rotation.
+  Eigen::Matrix3d position_rotation = Eigen::Matrix3d::Zero();
+};
+
+struct GivenPose {
+  WorldFromCamera world_from_camera;  ///< of the camera whose images FrameLoader gives
+  std::optional<PoseUncertainty> uncertainty;
+};
+
+struct GivenPosesOptions {
+  std::filesystem::path path;  ///< a file or a folder (docs/poses.md); empty: the sequence's own
+  double time_offset_s = 0;    ///< added to the poses' stamps
+  /// A frame between two poses further apart than this gets none. GNSS/INS gives 10 to 200 poses a second: at
+  /// 10 a second jitter passes, a lost pose does not. Between two poses a vehicle that accelerates by 3 m/s^2
+  /// leaves the line by at most 3/8 gap^2, 8 mm at this gap.
+  double max_gap_s = 0.15;
+  std::optional<GeodeticOrigin> origin = std::nullopt;  ///< of geodetic poses; none: the first pose used
+};
+
+struct GivenPoses {
+  std::vector<std::optional<GivenPose>> frames;  ///< one for each of Sequence::frames
+  std::size_t without_pose = 0;                  ///< frames that got none
+  std::optional<GeodeticOrigin> origin;          ///< of geodetic poses
+  std::string format;                            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table", "truth"
+};
+
+/// The poses that a user names, or the sequence's own: its truth, else its OXTS packets. A frame gets the
+/// pose of its stamp; else one between those before and after it, unless these are too far apart (position
+/// linear, rotation SLERP; covariances linear, which bounds the truth whatever the correlation of the two
+/// errors, since squares are convex); else, as stamps are often rounded, a pose within a millisecond. Files
+/// whose first column holds whole numbers belong to the frames of these numbers, except in sequences that
+/// have a clock (TUM, EuRoC), and KITTI's to the frames in their order. Where poses are of a body,
+/// Calibration says where the camera sits on it. InputError for whatever is wrong, and where no frame gets a
+/// pose.
+[[nodiscard]] GivenPoses read_given_poses(const Sequence& sequence, const GivenPosesOptions& options = {});
+
+/// Without what is known of them.
+[[nodiscard]] std::vector<std::optional<WorldFromCamera>> poses_of_frames(
+    const Sequence& sequence, const GivenPosesOptions& options = {});
+
+/// The folder of OXTS packets in a sequence's folder, if there is one.
+[[nodiscard]] std::optional<std::filesystem::path> oxts_in(const std::filesystem::path& sequence_folder);
+
+}  // namespace cairn

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Private to this room: poses as files state them, one reader per format, before they are those of frames.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cairn/core/text.h"
+#include "cairn/sequence/given_poses.h"
+
+namespace cairn {
+
+/// By what a pose finds its frame.
+enum class PoseKey { stamp, number, position };
+
+/// Of what the poses are: of the camera whose images FrameLoader gives, or of a body with these axes.
+enum class PoseSubject { camera, body_forward_left_up, body_forward_right_down, body_of_sensor };
+
+struct RecordedPose {
+  std::int64_t key = 0;  ///< nanoseconds, number of a frame, or position of a frame in the recording
+  /// Metres in the world; of geodetic poses latitude and longitude (degrees), height above the ellipsoid
+  /// (metres).
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  /// world_from_subject; of geodetic poses the world is east, north, up at the place itself.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  /// Covariances of the place (square metres) and of a small rotation (square radians) about the same axes.
+  Eigen::Matrix3d place_covariance = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();
+};
+
+struct RecordedPoses {
+  std::filesystem::path source;  ///< for messages
+  std::string format;            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table"
+  PoseKey key = PoseKey::stamp;
+  PoseSubject subject = PoseSubject::camera;
+  bool geodetic = false;
+  bool has_uncertainty = false;
+  std::vector<RecordedPose> poses;  ///< keys increase strictly; at least one
+};
+
+/// Finds out the format of a file or a folder by its content. A TUM file or a table may have numbers of
+/// frames instead of stamps only where `may_have_numbers`. InputError for whatever is wrong.
+[[nodiscard]] RecordedPoses read_recorded_poses(const std::filesystem::path& path, bool may_have_numbers);
+
+[[nodiscard]] RecordedPoses poses_of_trajectory(const Trajectory& trajectory);
+
+/// Whether a folder holds OXTS packets: data/ and timestamps.txt.
+[[nodiscard]] bool is_oxts(const std::filesystem::path& folder);
+/// Packets of an OXTS inertial navigation system as KITTI has them (Geiger et al. 2013, "Vision meets
+/// robotics: the KITTI dataset"): data/NNNNNNNNNN.txt, each of 30 values, and timestamps.txt.
+[[nodiscard]] RecordedPoses read_oxts(const std::filesystem::path& folder);
+
+/// Whether the first line names the columns of a table (docs/poses.md).
+[[nodiscard]] bool is_pose_table(const std::filesystem::path& path);
+[[nodiscard]] RecordedPoses read_pose_table(const std::filesystem::path& path);
+
+/// Appends a pose read from a line; InputError unless its key is above the last one's.
+void append_pose(const TextFile& file, const TextLine& line, const RecordedPose& pose,
+                 RecordedPoses& recorded);
+/// Independent errors: the squares on the diagonal.
+[[nodiscard]] Eigen::Matrix3d covariance_of(const Eigen::Vector3d& standard_deviations);
+
+}  // namespace cairn

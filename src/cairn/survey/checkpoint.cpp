@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/checkpoint.h"
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/spool.h"
+#include "cairn/map/binary_file.h"
+
+namespace cairn {
+namespace {
+
+constexpr BinaryKind kKind{"CAIRNSVY", 1};
+constexpr const char* kName = "checkpoint.bin";
+constexpr const char* kNextName = "checkpoint.next";
+
+// Each put has its get below, in the same order.
+
+void put(const Sighting& sighting, ByteWriter& writer) {
+  writer.put(sighting.keyframe.value);
+  writer.put(sighting.feature);
+}
+
+void get(BinaryReader& reader, Sighting& sighting) {
+  sighting.keyframe.value = reader.get<std::int32_t>();
+  sighting.feature = reader.get<std::int32_t>();
+}
+
+template <class Matrix>
+void put_matrix(const Matrix& matrix, ByteWriter& writer) {
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) writer.put(matrix.data()[i]);
+}
+
+template <class Matrix>
+void get_matrix(BinaryReader& reader, Matrix& matrix) {
+  for (Eigen::Index i = 0; i < matrix.size(); ++i) matrix.data()[i] = reader.get<double>();
+}
+
+void put(std::uint32_t value, ByteWriter& writer) {
+  writer.put(value);
+}
+
+void get(BinaryReader& reader, std::uint32_t& value) {
+  value = reader.get<std::uint32_t>();
+}
+
+void put(LandmarkId id, ByteWriter& writer) {
+  writer.put(id.value);
+}
+
+void get(BinaryReader& reader, LandmarkId& id) {
+  id.value = reader.get<std::int32_t>();
+}
+
+void put(const Track& track, ByteWriter& writer);
+void get(BinaryReader& reader, Track& track);
+void put(const SurveyLandmark& landmark, ByteWriter& writer);
+void get(BinaryReader& reader, SurveyLandmark& landmark);
+
+template <class Item>
+void put(const std::vector<Item>& items, ByteWriter& writer) {
+  writer.put(static_cast<std::uint64_t>(items.size()));
+  for (const Item& item : items) put(item, writer);
+}
+
+template <class Item>
+void get(BinaryReader& reader, std::vector<Item>& items) {
+  const auto count = reader.get<std::uint64_t>();
+  items.clear();
+  for (std::uint64_t i = 0; i < count; ++i) get(reader, items.emplace_back());
+}
+
+void put(const Track& track, ByteWriter& writer) {
+  put(track.sightings, writer);
+  put(track.latest, writer);
+  put(track.measured, writer);
+  put_matrix(track.point_in_world, writer);
+}
+
+void get(BinaryReader& reader, Track& track) {
+  get(reader, track.sightings);
+  get(reader, track.latest);
+  get(reader, track.measured);
+  get_matrix(reader, track.point_in_world);
+}
+
+void put(const Spread& spread, ByteWriter& writer) {
+  for (const double value : {spread.mean, spread.min, spread.max, spread.std}) writer.put(value);
+}
+
+void get(BinaryReader& reader, Spread& spread) {
+  for (double* value : {&spread.mean, &spread.min, &spread.max, &spread.std}) *value = reader.get<double>();
+}
+
+void put(const LandmarkIndicators& indicators, ByteWriter& writer) {
+  writer.put(indicators.frames);
+  writer.put(indicators.rms_px);
+  for (const Spread* spread :
+       {&indicators.distance, &indicators.lateral, &indicators.depth, &indicators.angle_deg})
+    put(*spread, writer);
+  writer.put(indicators.max_ray_angle_deg);
+}
+
+void get(BinaryReader& reader, LandmarkIndicators& indicators) {
+  indicators.frames = reader.get<int>();
+  indicators.rms_px = reader.get<double>();
+  for (Spread* spread : {&indicators.distance, &indicators.lateral, &indicators.depth, &indicators.angle_deg})
+    get(reader, *spread);
+  indicators.max_ray_angle_deg = reader.get<double>();
+}
+
+void put(const Rigid3& transform, ByteWriter& writer) {
+  for (const double value : transform.rotation.coeffs()) writer.put(value);
+  put_matrix(transform.translation, writer);
+}
+
+Rigid3 get_transform(BinaryReader& reader) {
+  Rigid3 transform;
+  for (double& value : transform.rotation.coeffs()) value = reader.get<double>();
+  get_matrix(reader, transform.translation);
+  return transform;
+}
+
+void put(const SurveyLandmark& landmark, ByteWriter& writer) {
+  put(landmark.sightings, writer);
+  put_matrix(landmark.point_in_world, writer);
+  put_matrix(landmark.cofactor, writer);
+  writer.put(landmark.squared_error_sum);
+  writer.put(landmark.redundancy);
+  writer.put(landmark.variance_factor);
+  put_matrix(landmark.pose_covariance, writer);
+  put(landmark.indicators, writer);
+}
+
+void get(BinaryReader& reader, SurveyLandmark& landmark) {
+  get(reader, landmark.sightings);
+  get_matrix(reader, landmark.point_in_world);
+  get_matrix(reader, landmark.cofactor);
+  landmark.squared_error_sum = reader.get<double>();
+  landmark.redundancy = reader.get<int>();
+  landmark.variance_factor = reader.get<double>();
+  get_matrix(reader, landmark.pose_covariance);
+  get(reader, landmark.indicators);
+}
+
+/// The numbers of SurveyCounts, in its order.
+std::vector<std::int64_t*> fields_of(SurveyCounts& counts) {
+  std::vector<std::int64_t*> fields{&counts.frames,        &counts.without_pose,     &counts.standing,
+                                    &counts.unreadable,    &counts.features,         &counts.measured,
+                                    &counts.matched,       &counts.tracks,           &counts.too_short,
+                                    &counts.contradictory, &counts.dropped_sightings};
+  for (std::int64_t& cleaned : counts.cleaned) fields.push_back(&cleaned);
+  fields.insert(fields.end(), {&counts.merged, &counts.landmarks, &counts.sightings});
+  return fields;
+}
+
+void put(const VarianceModel::Sums& sums, ByteWriter& writer) {
+  writer.put(sums.count);
+  for (const double value : {sums.log, sums.log_squared, sums.noise}) writer.put(value);
+}
+
+VarianceModel::Sums get_sums(BinaryReader& reader) {
+  VarianceModel::Sums sums;
+  sums.count = reader.get<std::int64_t>();
+  for (double* value : {&sums.log, &sums.log_squared, &sums.noise}) *value = reader.get<double>();
+  return sums;
+}
+
+/// Without what is found again in its images, or given again.
+void put(const SurveyFrame& frame, ByteWriter& writer) {
+  writer.put(frame.id.value);
+  writer.put(frame.observed.frame.value);
+  put(frame.kept, writer);
+  put(frame.landmarks, writer);
+  put(frame.world_from_camera, writer);
+  put(frame.odometry, writer);
+  writer.put(static_cast<std::uint8_t>(frame.motion ? 1 : 0));
+  if (!frame.motion) return;
+  put(frame.motion->previous_from_this, writer);
+  writer.put(frame.motion->rotation_variance);
+  writer.put(frame.motion->translation_variance);
+}
+
+SurveyFrame get_frame(BinaryReader& reader, const ObserveAgain& observe) {
+  SurveyFrame frame;
+  frame.id.value = reader.get<std::int32_t>();
+  const FrameId in_sequence{reader.get<std::int32_t>()};
+  get(reader, frame.kept);
+  get(reader, frame.landmarks);
+  frame.world_from_camera = WorldFromCamera(get_transform(reader));
+  frame.camera_from_world = frame.world_from_camera.inverse();
+  frame.odometry = WorldFromCamera(get_transform(reader));
+  if (reader.get<std::uint8_t>() != 0) {
+    frame.motion = VisualMotion{get_transform(reader)};
+    frame.motion->rotation_variance = reader.get<double>();
+    frame.motion->translation_variance = reader.get<double>();
+  }
+  observe(in_sequence, frame);
+  return frame;
+}
+
+SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
+  SurveyState state;
+  state.next_in_sequence = reader.get<std::uint64_t>();
+  state.next_frame.value = reader.get<std::int32_t>();
+  state.next_landmark.value = reader.get<std::int32_t>();
+  get(reader, state.tracks);
+  get(reader, state.pending);
+  state.variance = VarianceModel(get_sums(reader));
+  for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
+  state.counts.moved_squared_m = reader.get<double>();
+  state.counts.turned_squared_rad = reader.get<double>();
+  const auto frames = reader.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < frames; ++i) state.frames.push_back(get_frame(reader, observe));
+  return state;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identity, const SurveyState& state,
+                      const MapWriterState& map) {
+  BinaryWriter writer(kKind);
+  writer.put(identity);
+  map.put(writer);
+  writer.put(static_cast<std::uint64_t>(state.next_in_sequence));
+  writer.put(state.next_frame.value);
+  writer.put(state.next_landmark.value);
+  put(state.tracks, writer);
+  put(state.pending, writer);
+  put(state.variance.sums(), writer);
+  SurveyCounts counts = state.counts;
+  for (const std::int64_t* field : fields_of(counts)) writer.put(*field);
+  writer.put(counts.moved_squared_m);
+  writer.put(counts.turned_squared_rad);
+  writer.put(static_cast<std::uint64_t>(state.frames.size()));
+  for (const SurveyFrame& frame : state.frames.all()) put(frame, writer);
+  const std::filesystem::path next = folder / kNextName;
+  write_file(next, std::move(writer).finish());
+  sync_to_disk(next);
+  commit_file(next, folder / kName);
+  sync_to_disk(folder);
+}
+
+std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder, std::uint32_t identity,
+                                          const ObserveAgain& observe) {
+  if (!has_checkpoint(folder)) return std::nullopt;
+  try {
+    BinaryReader reader(folder / kName, kKind);
+    if (reader.get<std::uint32_t>() != identity) return std::nullopt;
+    MapWriterState writer = MapWriterState::get(reader);
+    return Checkpoint{get_state(reader, observe), std::move(writer)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / kName);
+}
+
+void remove_checkpoint(const std::filesystem::path& folder) {
+  std::filesystem::remove(folder / kName);
+}
+
+}  // namespace cairn

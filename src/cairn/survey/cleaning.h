@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "cairn/map/indicators.h"
+#include "cairn/survey/options.h"
+
+namespace cairn {
+
+/// Why a landmark is not worth keeping; in the order in which they are asked for.
+enum class CleaningRule { frames, position_std, rms, ray_angle, depth, distance, lateral, view_angle };
+constexpr std::size_t kCleaningRules = 8;
+
+/// "fewer frames than 3" and so on, without the number.
+[[nodiscard]] std::string_view to_string(CleaningRule rule);
+
+/// The first rule that the landmark falls to; nothing where it holds against all.
+[[nodiscard]] std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
+                                                      const Eigen::Matrix3d& covariance,
+                                                      const CleaningOptions& options);
+
+/// How many landmarks fell to each rule.
+using CleaningCounts = std::array<std::int64_t, kCleaningRules>;
+
+}  // namespace cairn

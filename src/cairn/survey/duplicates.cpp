@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/duplicates.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "cairn/features/matching.h"
+
+namespace cairn {
+namespace {
+
+/// Points by cells, to find those near a place.
+class CellIndex {
+ public:
+  void add(const Eigen::Vector3d& point, std::size_t number) { cells_[cell_of(point)].push_back(number); }
+  void remove(const Eigen::Vector3d& point, std::size_t number) {
+    std::erase(cells_[cell_of(point)], number);
+  }
+  /// Those in the cells that the ball touches, by cell.
+  [[nodiscard]] std::vector<std::size_t> near(const Eigen::Vector3d& point, double radius) const {
+    const auto [x0, y0, z0] = cell_of(point - Eigen::Vector3d::Constant(radius));
+    const auto [x1, y1, z1] = cell_of(point + Eigen::Vector3d::Constant(radius));
+    std::vector<std::size_t> numbers;
+    for (std::int64_t x = x0; x <= x1; ++x) {
+      for (std::int64_t y = y0; y <= y1; ++y) {
+        for (auto it = cells_.lower_bound({x, y, z0}); it != cells_.end() && it->first <= Cell{x, y, z1};
+             ++it)
+          numbers.insert(numbers.end(), it->second.begin(), it->second.end());
+      }
+    }
+    return numbers;
+  }
+
+ private:
+  using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  static Cell cell_of(const Eigen::Vector3d& point) {
+    constexpr double kSize = 0.5;  // metres
+    const auto index = [](double value) { return static_cast<std::int64_t>(std::floor(value / kSize)); };
+    return {index(point.x()), index(point.y()), index(point.z())};
+  }
+
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
+/// The covariance that tells two landmarks apart: the poses' errors move both alike.
+Eigen::Matrix3d own_covariance(const SurveyLandmark& landmark) {
+  return landmark.variance_factor * landmark.cofactor;
+}
+
+double total_std(const SurveyLandmark& landmark) {
+  return std::sqrt(own_covariance(landmark).trace());
+}
+
+bool is_same_place(const SurveyLandmark& a, const SurveyLandmark& b, double sigmas) {
+  const Eigen::Vector3d difference = a.point_in_world - b.point_in_world;
+  const double reach = total_std(a) + total_std(b);
+  if (difference.squaredNorm() > sigmas * sigmas * reach * reach) return false;
+  const Eigen::Matrix3d covariance = own_covariance(a) + own_covariance(b);
+  return difference.dot(covariance.inverse() * difference) <= sigmas * sigmas;
+}
+
+/// The sightings of the two that are nearest in time.
+std::pair<Sighting, Sighting> nearest_sightings(const SurveyLandmark& a, const SurveyLandmark& b) {
+  std::pair<Sighting, Sighting> best{a.sightings.front(), b.sightings.front()};
+  const auto gap = [](const Sighting& x, const Sighting& y) {
+    return std::abs(x.keyframe.value - y.keyframe.value);
+  };
+  for (const Sighting& x : a.sightings) {
+    for (const Sighting& y : b.sightings) {
+      if (gap(x, y) < gap(best.first, best.second)) best = {x, y};
+    }
+  }
+  return best;
+}
+
+Descriptors descriptor_of(const FrameBuffer& frames, const Sighting& sighting) {
+  const auto row = static_cast<std::size_t>(sighting.feature);
+  return select(frames[sighting.keyframe].observed.features.descriptors, {&row, 1});
+}
+
+bool looks_the_same(const FrameBuffer& frames, const SurveyLandmark& a, const SurveyLandmark& b) {
+  const auto [x, y] = nearest_sightings(a, b);
+  const Descriptors first = descriptor_of(frames, x);
+  return !match_descriptors(first, descriptor_of(frames, y), {descriptor_limit(first), 0, false}).empty();
+}
+
+/// Of both, by frame; of two in one frame that of `a`.
+std::vector<Sighting> joined_sightings(const SurveyLandmark& a, const SurveyLandmark& b) {
+  const auto is_before = [](const Sighting& x, const Sighting& y) { return x.keyframe < y.keyframe; };
+  std::vector<Sighting> joined;
+  std::set_union(a.sightings.begin(), a.sightings.end(), b.sightings.begin(), b.sightings.end(),
+                 std::back_inserter(joined), is_before);
+  return joined;
+}
+
+/// One landmark from two, where nearly all sightings agree.
+std::optional<SurveyLandmark> joined(const Rig& rig, const FrameBuffer& frames, const SurveyLandmark& a,
+                                     const SurveyLandmark& b, const SurveyOptions& options) {
+  constexpr double kMinKept = 0.9;
+  const std::vector<Sighting> sightings = joined_sightings(a, b);
+  if (static_cast<int>(sightings.size()) >= options.tracks.max_frames) return std::nullopt;
+  auto landmark = fit_sightings(rig, frames, sightings, options);
+  if (!landmark ||
+      static_cast<double>(landmark->sightings.size()) < kMinKept * static_cast<double>(sightings.size()))
+    return std::nullopt;
+  return landmark;
+}
+
+}  // namespace
+
+std::int64_t merge_duplicates(const Rig& rig, const FrameBuffer& frames, const VariancePrior& prior,
+                              std::vector<SurveyLandmark>&& added, const SurveyOptions& options,
+                              std::vector<SurveyLandmark>& pending) {
+  CellIndex index;
+  double largest = 0;
+  for (std::size_t i = 0; i < pending.size(); ++i) {
+    index.add(pending[i].point_in_world, i);
+    largest = std::max(largest, total_std(pending[i]));
+  }
+  const double sigmas = options.cleaning.duplicate_sigmas;
+  std::int64_t merged = 0;
+  for (SurveyLandmark& landmark : added) {
+    const double reach = sigmas * (total_std(landmark) + largest);
+    bool is_new = true;
+    for (const std::size_t i : index.near(landmark.point_in_world, reach)) {
+      if (!is_same_place(pending[i], landmark, sigmas) || !looks_the_same(frames, pending[i], landmark))
+        continue;
+      auto both = joined(rig, frames, pending[i], landmark, options);
+      if (!both) continue;
+      complete_covariance(frames, prior, options.covariance.pose_errors, *both);
+      index.remove(pending[i].point_in_world, i);
+      pending[i] = std::move(*both);
+      index.add(pending[i].point_in_world, i);
+      ++merged;
+      is_new = false;
+      break;
+    }
+    if (!is_new) continue;
+    index.add(landmark.point_in_world, pending.size());
+    largest = std::max(largest, total_std(landmark));
+    pending.push_back(std::move(landmark));
+  }
+  return merged;
+}
+
+}  // namespace cairn

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/frames.h"
+
+#include "cairn/core/error.h"
+
+namespace cairn {
+
+void FrameBuffer::push_back(SurveyFrame&& frame) {
+  require(frames_.empty() || frame.id.value == frames_.back().id.value + 1, "frames come in their order");
+  frames_.push_back(std::move(frame));
+}
+
+std::size_t FrameBuffer::position(KeyframeId id) const {
+  require(!frames_.empty() && id >= frames_.front().id && id <= frames_.back().id,
+          "the frame is in the buffer");
+  return static_cast<std::size_t>(id.value - frames_.front().id.value);
+}
+
+std::vector<CameraFromWorld> FrameBuffer::camera_poses() const {
+  std::vector<CameraFromWorld> poses;
+  poses.reserve(frames_.size());
+  for (const SurveyFrame& frame : frames_) poses.push_back(frame.camera_from_world);
+  return poses;
+}
+
+const Observation& observation_of(const FrameBuffer& frames, const Sighting& sighting) {
+  return frames[sighting.keyframe].observed.observations[static_cast<std::size_t>(sighting.feature)];
+}
+
+const Keypoint& keypoint_of(const FrameBuffer& frames, const Sighting& sighting) {
+  return frames[sighting.keyframe].observed.features.keypoints[static_cast<std::size_t>(sighting.feature)];
+}
+
+Appearance appearance_of(const FrameBuffer& frames, const Sighting& sighting) {
+  const SurveyFrame& frame = frames[sighting.keyframe];
+  return {&frame.observed.features.descriptors, static_cast<std::size_t>(sighting.feature),
+          keypoint_of(frames, sighting), frame.odometry.translation};
+}
+
+ObservedFrame select(const ObservedFrame& observed, std::span<const std::uint32_t> features) {
+  ObservedFrame some{observed.frame, observed.stamp_ns, {}, {}, {}};
+  for (const std::uint32_t i : features) {
+    some.features.keypoints.push_back(observed.features.keypoints[i]);
+    some.observations.push_back(observed.observations[i]);
+    some.points_in_camera.push_back(observed.points_in_camera[i]);
+  }
+  const std::vector<std::size_t> rows(features.begin(), features.end());
+  some.features.descriptors = select(observed.features.descriptors, rows);
+  return some;
+}
+
+void scale_sigmas(double factor, ObservedFrame& observed) {
+  for (Observation& seen : observed.observations) seen.sigma_px *= factor;
+}
+
+}  // namespace cairn

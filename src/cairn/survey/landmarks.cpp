@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/landmarks.h"
+
+#include <Eigen/Geometry>
+#include <map>
+
+#include "cairn/map/frame_file.h"
+#include "cairn/optimize/landmark_fit.h"
+#include "cairn/survey/pose_smoothing.h"
+
+namespace cairn {
+namespace {
+
+std::vector<LandmarkSighting> with_positions(const FrameBuffer& frames, std::span<const Sighting> sightings) {
+  std::vector<LandmarkSighting> result;
+  for (const Sighting& sighting : sightings)
+    result.push_back(
+        {static_cast<std::int32_t>(frames.position(sighting.keyframe)), observation_of(frames, sighting)});
+  return result;
+}
+
+SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
+                             std::span<const CameraFromWorld> cameras, std::span<const Sighting> sightings,
+                             const LandmarkFit& fit) {
+  SurveyLandmark landmark;
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    if (fit.kept[i] != 0) landmark.sightings.push_back(sightings[i]);
+  }
+  landmark.point_in_world = fit.point_in_world;
+  landmark.cofactor = fit.covariance;
+  landmark.squared_error_sum = fit.squared_error_sum;
+  landmark.redundancy = fit.redundancy;
+  landmark.indicators = indicators_of(rig, fit.point_in_world, views_of(frames, cameras, landmark.sightings));
+  return landmark;
+}
+
+/// Tracks that have their cameras in common.
+struct TrackGroup {
+  KeyframeId middle;
+  std::vector<std::size_t> tracks;
+};
+
+std::vector<TrackGroup> group_by_middle(std::span<const Track> tracks, int min_observations) {
+  std::map<KeyframeId, std::vector<std::size_t>> by_middle;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (static_cast<int>(tracks[i].sightings.size()) >= min_observations)
+      by_middle[middle_of(tracks[i].sightings)].push_back(i);
+  }
+  std::vector<TrackGroup> groups;
+  for (auto& [middle, members] : by_middle) groups.push_back({middle, std::move(members)});
+  return groups;
+}
+
+void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
+               const TrackGroup& group, const SurveyOptions& options,
+               std::vector<std::optional<SurveyLandmark>>& fits) {
+  const auto cameras = cameras_around(frames, group.middle, options.tracks.smooth_frames);
+  LandmarkSolver solver(rig, cameras, options.fit);
+  LandmarkFit fit;
+  for (const std::size_t i : group.tracks) {
+    solver.fit(with_positions(frames, tracks[i].sightings), fit);
+    if (fit.status == LandmarkFitStatus::ok)
+      fits[i] = make_landmark(rig, frames, cameras, tracks[i].sightings, fit);
+  }
+}
+
+Eigen::Matrix3d pose_covariance_of(const FrameBuffer& frames, const SurveyLandmark& landmark) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Sighting& sighting : landmark.sightings) {
+    const GivenPose& given = frames[sighting.keyframe].given;
+    if (!given.uncertainty) continue;
+    const Eigen::Matrix3d by_rotation = skew(given.world_from_camera.translation - landmark.point_in_world);
+    sum += given.uncertainty->position + by_rotation * given.uncertainty->rotation * by_rotation.transpose();
+  }
+  return sum / static_cast<double>(landmark.sightings.size());
+}
+
+}  // namespace
+
+std::vector<LandmarkView> views_of(const FrameBuffer& frames, std::span<const CameraFromWorld> cameras,
+                                   std::span<const Sighting> sightings) {
+  std::vector<LandmarkView> views;
+  for (const Sighting& sighting : sightings)
+    views.push_back(
+        {cameras[frames.position(sighting.keyframe)], as_stored(observation_of(frames, sighting))});
+  return views;
+}
+
+KeyframeId middle_of(std::span<const Sighting> sightings) {
+  return sightings[sightings.size() / 2].keyframe;
+}
+
+std::optional<SurveyLandmark> fit_sightings(const Rig& rig, const FrameBuffer& frames,
+                                            std::span<const Sighting> sightings,
+                                            const SurveyOptions& options) {
+  const auto cameras = cameras_around(frames, middle_of(sightings), options.tracks.smooth_frames);
+  const LandmarkFit fit = fit_landmark(rig, cameras, with_positions(frames, sightings), options.fit);
+  if (fit.status != LandmarkFitStatus::ok) return std::nullopt;
+  return make_landmark(rig, frames, cameras, sightings, fit);
+}
+
+AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
+                             const SurveyOptions& options, const Executor& executor) {
+  AdjustedTracks adjusted;
+  const auto groups = group_by_middle(tracks, options.fit.min_observations);
+  std::vector<std::optional<SurveyLandmark>> fits(tracks.size());
+  executor.for_each(groups.size(),
+                    [&](std::size_t g) { fit_group(rig, frames, tracks, groups[g], options, fits); });
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (static_cast<int>(tracks[i].sightings.size()) < options.fit.min_observations) {
+      ++adjusted.too_short;
+    } else if (!fits[i]) {
+      ++adjusted.contradictory;
+    } else {
+      adjusted.dropped_sightings +=
+          static_cast<std::int64_t>(tracks[i].sightings.size() - fits[i]->sightings.size());
+      adjusted.landmarks.push_back(std::move(*fits[i]));
+    }
+  }
+  return adjusted;
+}
+
+void complete_covariance(const FrameBuffer& frames, const VariancePrior& prior, bool pose_errors,
+                         SurveyLandmark& landmark) {
+  landmark.variance_factor = prior.factor(landmark.squared_error_sum, landmark.redundancy);
+  if (pose_errors) landmark.pose_covariance = pose_covariance_of(frames, landmark);
+}
+
+}  // namespace cairn

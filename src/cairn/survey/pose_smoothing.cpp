@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/pose_smoothing.h"
+
+#include <algorithm>
+
+#include "cairn/optimize/pose_only.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kTiny = 1e-18;  // radians, metres, squared: exact poses get all the weight
+
+/// Where motions lead from a frame in the middle.
+struct Neighbour {
+  KeyframeId id;
+  Rigid3 neighbour_from_middle;
+  double rotation_variance = 0, translation_variance = 0;  // of the way, per axis
+};
+
+KeyframeId shifted(KeyframeId id, int by) {
+  return {id.value + by};
+}
+
+bool is_in(const FrameBuffer& frames, KeyframeId id) {
+  return id >= frames.front().id && id <= frames.back().id;
+}
+
+/// The frames after (direction 1) or before (-1) `middle`, the nearest first, as far as motions were
+/// measured.
+void follow_motions(const FrameBuffer& frames, KeyframeId middle, int direction, int reach,
+                    std::vector<Neighbour>& neighbours) {
+  Neighbour next{middle, {}};
+  for (int k = 1; k <= reach; ++k) {
+    next.id = shifted(middle, direction * k);
+    if (!is_in(frames, next.id)) return;
+    const auto& motion = frames[direction > 0 ? next.id : shifted(next.id, 1)].motion;
+    if (!motion) return;
+    const Rigid3 step = direction > 0 ? motion->previous_from_this.inverse() : motion->previous_from_this;
+    next.neighbour_from_middle = step * next.neighbour_from_middle;
+    next.rotation_variance += motion->rotation_variance;
+    next.translation_variance += motion->translation_variance;
+    neighbours.push_back(next);
+  }
+}
+
+std::vector<Neighbour> neighbours_of(const FrameBuffer& frames, KeyframeId middle, int reach) {
+  std::vector<Neighbour> neighbours;
+  follow_motions(frames, middle, 1, reach, neighbours);
+  follow_motions(frames, middle, -1, reach, neighbours);
+  return neighbours;
+}
+
+struct Jitter {
+  double rotation_variance = 0, translation_variance = 0;  // of one given pose, per axis
+};
+
+Jitter measure_jitter(const FrameBuffer& frames, KeyframeId id, int reach) {
+  Vector6d squares = Vector6d::Zero();
+  double rotation_noise = 0, translation_noise = 0;
+  int count = 0;
+  for (int k = -reach + 1; k <= reach; ++k) {
+    const KeyframeId frame = shifted(id, k), before = shifted(frame, -1);
+    if (!is_in(frames, frame) || !is_in(frames, before) || !frames[frame].motion) continue;
+    const Rigid3 given =
+        frames[before].given.world_from_camera.inverse() * frames[frame].given.world_from_camera;
+    squares += left_perturbation(given, frames[frame].motion->previous_from_this).cwiseAbs2();
+    rotation_noise += frames[frame].motion->rotation_variance;
+    translation_noise += frames[frame].motion->translation_variance;
+    ++count;
+  }
+  if (count == 0) return {};
+  const auto variance = [&](double sum_of_squares, double noise) {
+    return std::max(0.0, (sum_of_squares / 3 - noise) / (2.0 * count));
+  };
+  return {variance(squares.head<3>().sum(), rotation_noise),
+          variance(squares.tail<3>().sum(), translation_noise)};
+}
+
+}  // namespace
+
+std::optional<VisualMotion> measure_motion(const Rig& rig, const FrameBuffer& frames,
+                                           std::span<const Track> tracks, const SurveyFrame& frame,
+                                           std::span<const TrackMatch> matches) {
+  constexpr std::size_t kMinInliers = 30;
+  if (frames.empty()) return std::nullopt;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Observation> seen;
+  for (const TrackMatch& match : matches) {
+    points.push_back(tracks[static_cast<std::size_t>(match.track)].point_in_world);
+    seen.push_back(frame.observed.observations[static_cast<std::size_t>(match.feature)]);
+  }
+  if (points.size() < kMinInliers) return std::nullopt;
+  const PoseOnlyResult fit =
+      refine_pose(rig, points, seen, frame.odometry.inverse(), {.begin_with_all = true});
+  if (!fit.solved || fit.inliers.size() < std::max(kMinInliers, points.size() / 2)) return std::nullopt;
+  const Matrix6d covariance = fit.variance_factor * fit.information.inverse();
+  return VisualMotion{frames.back().odometry.inverse() * fit.camera_from_world.inverse(),
+                      covariance.topLeftCorner<3, 3>().trace() / 3,
+                      covariance.bottomRightCorner<3, 3>().trace() / 3};
+}
+
+WorldFromCamera smoothed_pose(const FrameBuffer& frames, KeyframeId id, int reach) {
+  const WorldFromCamera& given = frames[id].given.world_from_camera;
+  const Jitter jitter = measure_jitter(frames, id, reach);
+  Eigen::Vector3d rotation = Eigen::Vector3d::Zero(), translation = Eigen::Vector3d::Zero();
+  double rotation_weight = 1 / (jitter.rotation_variance + kTiny),
+         translation_weight = 1 / (jitter.translation_variance + kTiny);
+  for (const Neighbour& neighbour : neighbours_of(frames, id, reach)) {
+    const Rigid3 carried = frames[neighbour.id].given.world_from_camera * neighbour.neighbour_from_middle;
+    const double by_rotation = 1 / (jitter.rotation_variance + neighbour.rotation_variance + kTiny),
+                 by_translation = 1 / (jitter.translation_variance + neighbour.translation_variance + kTiny);
+    rotation += by_rotation * rotation_log(given.rotation.conjugate() * carried.rotation);
+    translation += by_translation * (carried.translation - given.translation);
+    rotation_weight += by_rotation, translation_weight += by_translation;
+  }
+  WorldFromCamera smoothed = given;
+  smoothed.rotation = (given.rotation * rotation_exp(rotation / rotation_weight)).normalized();
+  smoothed.translation += translation / translation_weight;
+  return smoothed;
+}
+
+std::vector<CameraFromWorld> cameras_around(const FrameBuffer& frames, KeyframeId middle, int reach) {
+  std::vector<CameraFromWorld> cameras = frames.camera_poses();
+  const Jitter jitter = measure_jitter(frames, middle, reach);
+  const SurveyFrame& from = frames[middle];
+  const int whole = static_cast<int>(frames.size());
+  for (const Neighbour& neighbour : neighbours_of(frames, middle, whole)) {
+    const Rigid3 led = from.world_from_camera * neighbour.neighbour_from_middle.inverse();
+    const Rigid3& given = frames[neighbour.id].given.world_from_camera;
+    const double to_given_rotation =
+        neighbour.rotation_variance / (neighbour.rotation_variance + jitter.rotation_variance + kTiny);
+    const double to_given = neighbour.translation_variance /
+                            (neighbour.translation_variance + jitter.translation_variance + kTiny);
+    Rigid3 world_from_camera;
+    world_from_camera.rotation = led.rotation.slerp(to_given_rotation, given.rotation);
+    world_from_camera.translation = led.translation + to_given * (given.translation - led.translation);
+    cameras[frames.position(neighbour.id)] = CameraFromWorld(world_from_camera.inverse());
+  }
+  return cameras;
+}
+
+}  // namespace cairn

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/survey.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "cairn/core/checksum.h"
+#include "cairn/core/error.h"
+#include "cairn/core/stopwatch.h"
+#include "cairn/frontend/frontend.h"
+#include "cairn/survey/checkpoint.h"
+#include "cairn/survey/surveyor.h"
+
+namespace cairn {
+namespace {
+
+void check(const SurveyInput& input) {
+  const Calibration& calibration = input.sequence.calibration;
+  require(input.poses.frames.size() == input.sequence.frames.size(), "one pose, or none, for each frame");
+  if (calibration.depth || calibration.baseline) return;
+  throw InputError(
+      {input.sequence.folder.string(), 0, "a stereo or an RGB-D sequence", "images of one camera",
+       "A landmark's distance comes from a second image or a depth image: camera.yaml needs a section "
+       "'right' or 'depth'."});
+}
+
+void append_bytes(const Rigid3& pose, std::string& text) {
+  text.append(reinterpret_cast<const char*>(pose.translation.data()), 3 * sizeof(double));
+  text.append(reinterpret_cast<const char*>(pose.rotation.coeffs().data()), 4 * sizeof(double));
+}
+
+/// Stands for all that the map depends on: another number, another map.
+std::uint32_t identity_of(const SurveyInput& input) {
+  const Sequence& sequence = input.sequence;
+  std::string text = input.settings + format_calibration(sequence.calibration);
+  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
+    const FrameFiles& files = sequence.frames[i];
+    text += fmt::format("{} {} {} {} {}\n", files.stamp_ns, files.number, files.color.string(),
+                        files.depth.string(), files.right.string());
+    if (input.poses.frames[i]) append_bytes(input.poses.frames[i]->world_from_camera, text);
+  }
+  return crc32(text);
+}
+
+/// Norm and size of descriptors as the extractor makes them.
+DescriptorKind kind_of(const FeatureOptions& options) {
+  const Descriptors descriptors = make_extractor(options)->extract(GrayImage(1, 1)).descriptors;
+  return {options.descriptor, descriptors.norm(), static_cast<std::uint32_t>(descriptors.bytes())};
+}
+
+MapHeader header_of(const SurveyInput& input, const Rig& rig, const SurveyOptions& options) {
+  MapHeader header;
+  header.rig = rig;
+  header.width = input.sequence.calibration.camera.width;
+  header.height = input.sequence.calibration.camera.height;
+  header.descriptor = kind_of(options.observer.features);
+  header.origin = input.poses.origin;
+  header.world = header.origin ? "east, north and up at the origin" : "that of the given poses";
+  header.settings = input.settings;
+  return header;
+}
+
+/// One run: from where an earlier one came to, or the beginning.
+class Run {
+ public:
+  Run(const SurveyInput& input, const SurveyOptions& options, const std::filesystem::path& folder,
+      const Executor& executor, Progress& progress)
+      : input_(input),
+        options_(options),
+        folder_(folder),
+        executor_(executor),
+        progress_(progress),
+        identity_(identity_of(input)),
+        rig_(rig_of(input.sequence.calibration, options.observer.depth_noise)),
+        frontend_(input.sequence, options.observer) {}
+
+  SurveyResult operator()() {
+    begin();
+    follow();
+    if (!result_.stopped) {
+      surveyor_->finish(executor_);
+      writer_->finish();
+      MapWriter::discard_spools(folder_);
+      remove_checkpoint(folder_);
+    }
+    return summarise();
+  }
+
+ private:
+  void begin() {
+    const MapHeader header = header_of(input_, rig_, options_);
+    auto checkpoint = read_checkpoint(folder_, identity_,
+                                      [&](FrameId id, SurveyFrame& frame) { observe_again(id, frame); });
+    writer_ = checkpoint ? std::make_unique<MapWriter>(folder_, header, checkpoint->writer)
+                         : std::make_unique<MapWriter>(folder_, header);
+    SurveyState state = checkpoint ? std::move(checkpoint->state) : SurveyState{};
+    result_.resumed_at = static_cast<std::int64_t>(state.next_in_sequence);
+    surveyor_ = std::make_unique<Surveyor>(rig_, options_, std::move(state), *writer_);
+  }
+
+  void observe_again(FrameId id, SurveyFrame& frame) const {
+    const auto index = static_cast<std::size_t>(id.value);
+    Arrival arrival = frontend_(index);
+    if (arrival.failure) std::rethrow_exception(arrival.failure);
+    scale_sigmas(options_.covariance.sigma_px, arrival.observed);
+    frame.observed = select(arrival.observed, frame.kept);
+    frame.given = *input_.poses.frames[index];
+  }
+
+  void follow() {
+    const std::size_t first = surveyor_->state().next_in_sequence;
+    std::vector<std::size_t> todo;
+    for (std::size_t i = first; i < input_.sequence.frames.size(); ++i) {
+      if (input_.poses.frames[i]) todo.push_back(i);
+    }
+    surveyor_->state().counts.without_pose = static_cast<std::int64_t>(input_.poses.without_pose);
+    const auto all = static_cast<std::int64_t>(input_.sequence.frames.size());
+    progress_.start("mapping", all, "frames");
+    executor_.ordered_pipeline<Arrival>(
+        todo.size(), [&](std::size_t k) { return frontend_(todo[k]); },
+        [&](std::size_t k, Arrival&& arrival) { return take(todo[k], arrival); });
+    progress_.finish();
+  }
+
+  /// One frame; false to stop after it.
+  bool take(std::size_t index, const Arrival& arrival) {
+    result_.times.decode += arrival.decode_seconds;
+    result_.times.features += arrival.feature_seconds;
+    SurveyState& state = surveyor_->state();
+    if (arrival.failure) {
+      ++state.counts.unreadable;
+      progress_.warn(arrival.error);
+    } else {
+      surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
+    }
+    state.next_in_sequence = index + 1;
+    progress_.update(static_cast<std::int64_t>(index) + 1);
+    result_.stopped = progress_.stop_requested() && index + 1 < input_.sequence.frames.size();
+    if (result_.stopped || since_checkpoint_.seconds() > kCheckpointSeconds) keep();
+    return !result_.stopped;
+  }
+
+  void keep() {
+    write_checkpoint(folder_, identity_, surveyor_->state(), writer_->save());
+    since_checkpoint_ = Stopwatch();
+  }
+
+  SurveyResult summarise() {
+    const SurveyState& state = surveyor_->state();
+    const SurveyTimes& times = surveyor_->times();
+    result_.counts = state.counts;
+    result_.times.matching = times.matching;
+    result_.times.adjustment = times.adjustment;
+    result_.times.merging = times.merging;
+    result_.times.writing = times.writing;
+    result_.noise = state.variance.prior();
+    const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
+    result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
+    result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;
+    return std::move(result_);
+  }
+
+  static constexpr double kCheckpointSeconds = 5;  // what a crash costs, beside finding features again
+
+  const SurveyInput& input_;
+  const SurveyOptions& options_;
+  const std::filesystem::path& folder_;
+  const Executor& executor_;
+  Progress& progress_;
+  std::uint32_t identity_;
+  Rig rig_;
+  Frontend frontend_;
+  std::unique_ptr<MapWriter> writer_;
+  std::unique_ptr<Surveyor> surveyor_;
+  Stopwatch since_checkpoint_;
+  SurveyResult result_;
+};
+
+}  // namespace
+
+SurveyResult run_survey(const SurveyInput& input, const SurveyOptions& options,
+                        const std::filesystem::path& folder, const Executor& executor, Progress& progress) {
+  options.validate();
+  check(input);
+  return Run(input, options, folder, executor, progress)();
+}
+
+bool has_unfinished_survey(const std::filesystem::path& folder) {
+  return has_checkpoint(folder);
+}
+
+}  // namespace cairn

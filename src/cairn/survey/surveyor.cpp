@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/surveyor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/core/stopwatch.h"
+#include "cairn/survey/duplicates.h"
+#include "cairn/survey/pose_smoothing.h"
+
+namespace cairn {
+namespace {
+
+/// With the sigmas that the options give features.
+SurveyFrame make_frame(KeyframeId id, const ObservedFrame& observed, const GivenPose& given,
+                       double sigma_px) {
+  SurveyFrame frame;
+  frame.id = id;
+  frame.observed = observed;
+  scale_sigmas(sigma_px, frame.observed);
+  frame.given = given;
+  frame.world_from_camera = frame.odometry = given.world_from_camera;
+  frame.camera_from_world = given.world_from_camera.inverse();
+  return frame;
+}
+
+/// What is stored of a landmark.
+FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark) {
+  FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.sightings, {}, {},
+                          landmark.indicators};
+  std::vector<Appearance> appearances;
+  for (const Sighting& sighting : landmark.sightings) {
+    appearances.push_back(appearance_of(frames, sighting));
+    result.keypoints.push_back(appearances.back().keypoint);
+  }
+  result.descriptors = gather(appearances);
+  return result;
+}
+
+std::int64_t count_measured(const ObservedFrame& observed) {
+  return std::count_if(observed.observations.begin(), observed.observations.end(),
+                       [](const Observation& seen) { return seen.has_disparity(); });
+}
+
+}  // namespace
+
+Surveyor::Surveyor(const Rig& rig, const SurveyOptions& options, SurveyState&& state, MapWriter& writer)
+    : rig_(rig), options_(options), state_(std::move(state)), writer_(writer) {}
+
+void Surveyor::add(const ObservedFrame& observed, const GivenPose& given, const Executor& executor) {
+  if (stands(observed, given)) {
+    ++state_.counts.standing;
+    return;
+  }
+  Stopwatch watch;
+  SurveyFrame frame = make_frame(state_.next_frame, observed, given, options_.covariance.sigma_px);
+  auto matches = find_tracks(frame, executor);
+  keep_useful(frame, matches);
+  frame.landmarks.resize(frame.observed.observations.size());
+  extend_tracks(frame, matches, options_.tracks, state_.tracks);
+  const KeyframeId id = frame.id;
+  state_.frames.push_back(std::move(frame));
+  ++state_.next_frame.value;
+  ++state_.counts.frames;
+  state_.counts.features += static_cast<std::int64_t>(observed.observations.size());
+  state_.counts.measured += count_measured(observed);
+  state_.counts.matched += static_cast<std::int64_t>(matches.size());
+  times_.matching += watch.lap();
+  smooth_behind(id);
+  resolve(take_finished(id, options_.tracks, state_.tracks), executor);
+  // What a landmark may be merged with has left the window at most one window later.
+  write_landmarks({id.value - 2 * options_.tracks.window});
+  write_frames(std::min(first_open_frame(), {id.value - options_.tracks.window}));
+}
+
+void Surveyor::finish(const Executor& executor) {
+  const int reach = std::min(options_.tracks.smooth_frames, state_.next_frame.value);
+  for (int k = reach; k > 0; --k) smooth({state_.next_frame.value - k});
+  const KeyframeId after_all{state_.next_frame.value + options_.tracks.window};
+  resolve(take_finished(after_all, options_.tracks, state_.tracks), executor);
+  write_landmarks(state_.next_frame);
+  write_frames(state_.next_frame);
+}
+
+/// Matches twice where the images show the motion: as the given poses have it, then as that motion has it.
+std::vector<TrackMatch> Surveyor::find_tracks(SurveyFrame& frame, const Executor& executor) const {
+  const auto match = [&] {
+    return match_to_tracks(rig_, state_.frames, state_.tracks, frame, options_.tracks, executor);
+  };
+  if (state_.frames.empty()) return {};
+  const SurveyFrame& previous = state_.frames.back();
+  frame.odometry = WorldFromCamera(
+      previous.odometry * Rigid3(previous.given.world_from_camera.inverse() * frame.given.world_from_camera));
+  auto matches = match();
+  if (options_.tracks.smooth_frames == 0) return matches;
+  frame.motion = measure_motion(rig_, state_.frames, state_.tracks, frame, matches);
+  if (!frame.motion) return matches;
+  frame.odometry = WorldFromCamera(previous.odometry * frame.motion->previous_from_this);
+  return match();
+}
+
+bool Surveyor::stands(const ObservedFrame& observed, const GivenPose& given) const {
+  if (state_.frames.empty()) return false;
+  const Rigid3 moved = state_.frames.back().camera_from_world * given.world_from_camera;
+  const double depth = median_depth(observed);
+  const double way = moved.translation.norm();
+  return rotation_angle(moved.rotation) + (depth > 0 ? way / depth : way) < options_.tracks.min_view_change;
+}
+
+void Surveyor::resolve(const std::vector<Track>& finished, const Executor& executor) {
+  Stopwatch watch;
+  AdjustedTracks adjusted = adjust_tracks(rig_, state_.frames, finished, options_, executor);
+  SurveyCounts& counts = state_.counts;
+  counts.tracks += static_cast<std::int64_t>(finished.size());
+  counts.too_short += adjusted.too_short;
+  counts.contradictory += adjusted.contradictory;
+  counts.dropped_sightings += adjusted.dropped_sightings;
+  for (const SurveyLandmark& landmark : adjusted.landmarks)
+    state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
+  std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
+  times_.adjustment += watch.lap();
+  counts.merged += merge_duplicates(rig_, state_.frames, state_.variance.prior(), std::move(cleaned),
+                                    options_, state_.pending);
+  times_.merging += watch.lap();
+}
+
+std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landmarks) {
+  const VariancePrior prior = state_.variance.prior();
+  std::vector<SurveyLandmark> kept;
+  for (SurveyLandmark& landmark : landmarks) {
+    complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
+    const auto rule = failed_rule(landmark.indicators, landmark.covariance(), options_.cleaning);
+    rule ? void(++state_.counts.cleaned[static_cast<std::size_t>(*rule)])
+         : kept.push_back(std::move(landmark));
+  }
+  return kept;
+}
+
+/// The frame whose neighbours on both sides are there.
+void Surveyor::smooth_behind(KeyframeId newest) {
+  const int reach = options_.tracks.smooth_frames;
+  if (reach == 0 || newest.value < reach) return;
+  smooth({newest.value - reach});
+}
+
+/// Gives the frame its final pose.
+void Surveyor::smooth(KeyframeId id) {
+  SurveyFrame& frame = state_.frames[id];
+  frame.world_from_camera = smoothed_pose(state_.frames, id, options_.tracks.smooth_frames);
+  frame.camera_from_world = frame.world_from_camera.inverse();
+  const Rigid3 moved = frame.given.world_from_camera.inverse() * frame.world_from_camera;
+  const double angle = rotation_angle(moved.rotation);
+  state_.counts.moved_squared_m += moved.translation.squaredNorm();
+  state_.counts.turned_squared_rad += angle * angle;
+}
+
+/// Those whose last sighting is in a frame before.
+void Surveyor::write_landmarks(KeyframeId seen_before) {
+  Stopwatch watch;
+  std::vector<SurveyLandmark> later;
+  for (SurveyLandmark& landmark : state_.pending) {
+    if (landmark.sightings.back().keyframe >= seen_before) {
+      later.push_back(std::move(landmark));
+      continue;
+    }
+    for (const Sighting& sighting : landmark.sightings)
+      state_.frames[sighting.keyframe].landmarks[static_cast<std::size_t>(sighting.feature)] =
+          state_.next_landmark;
+    writer_.add_landmark(finished(state_.frames, landmark));
+    ++state_.next_landmark.value;
+    ++state_.counts.landmarks;
+    state_.counts.sightings += static_cast<std::int64_t>(landmark.sightings.size());
+  }
+  state_.pending = std::move(later);
+  times_.writing += watch.lap();
+}
+
+/// Frames whose features' landmarks are all known.
+void Surveyor::write_frames(KeyframeId before) {
+  Stopwatch watch;
+  for (; !state_.frames.empty() && state_.frames.front().id < before; state_.frames.pop_front())
+    writer_.add_frame(state_.frames.front().observed, state_.frames.front().landmarks,
+                      state_.frames.front().world_from_camera);
+  times_.writing += watch.lap();
+}
+
+/// The first frame that a track or a landmark which was not written has seen.
+KeyframeId Surveyor::first_open_frame() const {
+  KeyframeId first = state_.next_frame;
+  for (const Track& track : state_.tracks) {
+    if (!track.sightings.empty()) first = std::min(first, track.sightings.front().keyframe);
+  }
+  for (const SurveyLandmark& landmark : state_.pending)
+    first = std::min(first, landmark.sightings.front().keyframe);
+  return first;
+}
+
+}  // namespace cairn

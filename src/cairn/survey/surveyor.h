@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/survey/state.h"
+
+namespace cairn {
+
+/// Mapping with known poses, frame by frame: the stages in their order, see run_survey.
+class Surveyor {
+ public:
+  /// Goes on from `state`, with a writer that is as far.
+  Surveyor(const Rig& rig, const SurveyOptions& options, SurveyState&& state, MapWriter& writer);
+
+  /// The next frame. One that does not change the view is counted and left out.
+  void add(const ObservedFrame& observed, const GivenPose& given, const Executor& executor);
+  /// No frame follows: the tracks that are left become landmarks, and all is handed to the writer.
+  void finish(const Executor& executor);
+
+  [[nodiscard]] SurveyState& state() { return state_; }
+  [[nodiscard]] const SurveyTimes& times() const { return times_; }
+
+ private:
+  [[nodiscard]] bool stands(const ObservedFrame& observed, const GivenPose& given) const;
+  [[nodiscard]] std::vector<TrackMatch> find_tracks(SurveyFrame& frame, const Executor& executor) const;
+  void smooth_behind(KeyframeId newest);
+  void smooth(KeyframeId id);
+  void resolve(const std::vector<Track>& finished, const Executor& executor);
+  [[nodiscard]] std::vector<SurveyLandmark> clean(std::vector<SurveyLandmark>&& landmarks);
+  void write_landmarks(KeyframeId seen_before);
+  void write_frames(KeyframeId before);
+  [[nodiscard]] KeyframeId first_open_frame() const;
+
+  Rig rig_;
+  SurveyOptions options_;
+  SurveyState state_;
+  MapWriter& writer_;
+  SurveyTimes times_;
+};
+
+}  // namespace cairn

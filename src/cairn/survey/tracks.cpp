@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/tracks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/frontend/prediction.h"
+#include "cairn/geometry/epipolar.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kDepthSigmas = 3;  // how far the predicted depth may be wrong
+
+/// How far the pixel in `frame` moves when the disparity that placed the track is kDepthSigmas wrong.
+double depth_play_px(const Rig& rig, const FrameBuffer& frames, const Track& track,
+                     const SurveyFrame& frame) {
+  const SurveyFrame& then = frames[track.measured.keyframe];
+  const Observation& seen = observation_of(frames, track.measured);
+  const double nearer = seen.d + kDepthSigmas * seen.sigma_d_px;
+  const Rigid3 now_from_then = frame.odometry.inverse() * then.odometry;
+  const Eigen::Vector3d there = now_from_then * rig.point_at(seen.u, seen.v, rig.depth(seen.d)),
+                        moved = now_from_then * rig.point_at(seen.u, seen.v, rig.depth(nearer));
+  if (!is_in_front(there) || !is_in_front(moved)) return std::numeric_limits<double>::infinity();
+  return (rig.project(there) - rig.project(moved)).head<2>().norm();
+}
+
+struct TrackTargets {
+  std::vector<std::int32_t> tracks;
+  std::vector<PredictedPlace> places;
+  std::vector<Appearance> appearances;
+};
+
+bool is_near_image(const Rig& rig, const PredictedPlace& place) {
+  // The principal point is near the middle, so that twice its distance from the border is the image's size.
+  return place.u > -place.radius_px && place.v > -place.radius_px &&
+         place.u < 2.5 * rig.cx + place.radius_px && place.v < 2.5 * rig.cy + place.radius_px;
+}
+
+TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
+                            const SurveyFrame& frame, const TrackOptions& options) {
+  constexpr double kMaxPlayPx = 30;  // more is a point that is passed by
+  TrackTargets targets;
+  const FrameView view{rig, frame.observed, frame.odometry.inverse()};
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const Appearance appearance = appearance_of(frames, tracks[i].latest);
+    auto place = predict_place(view, tracks[i].point_in_world, appearance, options.search_px);
+    if (!place || !is_near_image(rig, *place)) continue;
+    const double play = depth_play_px(rig, frames, tracks[i], frame);
+    if (!(play <= kMaxPlayPx)) continue;
+    place->radius_px += play;
+    targets.tracks.push_back(static_cast<std::int32_t>(i));
+    targets.places.push_back(*place);
+    targets.appearances.push_back(appearance);
+  }
+  return targets;
+}
+
+/// Whether a feature of the frame can show what the track showed last, as the two poses have it.
+bool agrees(const Rig& rig, const FrameBuffer& frames, const Track& track, const SurveyFrame& frame,
+            std::size_t feature, double epipolar_px) {
+  const Observation& then = observation_of(frames, track.latest);
+  const Observation& now = frame.observed.observations[feature];
+  const Rigid3 now_from_then = frame.odometry.inverse() * frames[track.latest.keyframe].odometry;
+  const double scale = std::max({1.0, static_cast<double>(keypoint_of(frames, track.latest).sigma_px),
+                                 static_cast<double>(frame.observed.features.keypoints[feature].sigma_px)});
+  const double off_line = epipolar_distance(rig, now_from_then, {then.u, then.v}, {now.u, now.v});
+  if (off_line > epipolar_px * scale) return false;
+  const Eigen::Vector3d point = frame.odometry.inverse() * track.point_in_world;
+  if (!is_in_front(point)) return false;
+  if (!now.has_disparity()) return true;
+  const Observation& measured = observation_of(frames, track.measured);
+  const double disparity = rig.disparity(point.z()), ratio = disparity / measured.d;
+  return std::abs(disparity - now.d) <=
+         kDepthSigmas * std::hypot(now.sigma_d_px, ratio * ratio * measured.sigma_d_px) + epipolar_px;
+}
+
+}  // namespace
+
+std::vector<TrackMatch> match_to_tracks(const Rig& rig, const FrameBuffer& frames,
+                                        std::span<const Track> tracks, const SurveyFrame& frame,
+                                        const TrackOptions& options, const Executor& executor) {
+  const TrackTargets targets = predict_tracks(rig, frames, tracks, frame, options);
+  const Features& features = frame.observed.features;
+  const MatchOptions matching{descriptor_limit(features.descriptors), options.max_ratio, true};
+  std::vector<TrackMatch> matches;
+  for (const Match& match :
+       match_predicted(targets.places, gather(targets.appearances), features, matching, executor)) {
+    const std::int32_t track = targets.tracks[static_cast<std::size_t>(match.query)];
+    if (agrees(rig, frames, tracks[static_cast<std::size_t>(track)], frame,
+               static_cast<std::size_t>(match.train), options.epipolar_px))
+      matches.push_back({track, match.train});
+  }
+  return matches;
+}
+
+void keep_useful(SurveyFrame& frame, std::span<TrackMatch> matches) {
+  const ObservedFrame& observed = frame.observed;
+  const std::size_t count = observed.observations.size();
+  std::vector<char> useful(count);
+  for (std::size_t i = 0; i < count; ++i) useful[i] = observed.observations[i].has_disparity() ? 1 : 0;
+  for (const TrackMatch& match : matches) useful[static_cast<std::size_t>(match.feature)] = 1;
+  std::vector<std::int32_t> position(count);
+  frame.kept.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    position[i] = static_cast<std::int32_t>(frame.kept.size());
+    if (useful[i] != 0) frame.kept.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (TrackMatch& match : matches) match.feature = position[static_cast<std::size_t>(match.feature)];
+  frame.observed = select(observed, frame.kept);
+}
+
+void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches, const TrackOptions& options,
+                   std::vector<Track>& tracks) {
+  const ObservedFrame& observed = frame.observed;
+  const auto point = [&](std::size_t feature) { return frame.odometry * observed.points_in_camera[feature]; };
+  std::vector<char> taken(observed.observations.size());
+  for (const TrackMatch& match : matches) {
+    Track& track = tracks[static_cast<std::size_t>(match.track)];
+    const auto feature = static_cast<std::size_t>(match.feature);
+    track.latest = {frame.id, match.feature};
+    const auto count = static_cast<int>(track.sightings.size());
+    if (count > 0 && count + 1 < options.max_frames) track.sightings.push_back(track.latest);
+    taken[feature] = 1;
+    if (!observed.observations[feature].has_disparity()) continue;
+    track.measured = track.latest;
+    track.point_in_world = point(feature);
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    if (taken[i] != 0 || !observed.observations[i].has_disparity()) continue;
+    const Sighting first{frame.id, static_cast<std::int32_t>(i)};
+    tracks.push_back({{first}, first, first, point(i)});
+  }
+}
+
+std::vector<Track> take_finished(KeyframeId newest, const TrackOptions& options, std::vector<Track>& tracks) {
+  std::vector<Track> finished;
+  const auto has_left = [&](const Track& track) {
+    return newest.value - track.measured.keyframe.value >= options.window;
+  };
+  // A full one waits until the poses of its frames are smooth.
+  const auto is_full = [&](const Track& track) {
+    return static_cast<int>(track.sightings.size()) + 1 >= options.max_frames &&
+           newest.value - track.sightings.back().keyframe.value >= options.smooth_frames;
+  };
+  for (Track& track : tracks) {
+    if (track.sightings.empty() || !(is_full(track) || has_left(track))) continue;
+    finished.push_back(track);
+    track.sightings.clear();
+  }
+  std::erase_if(tracks, has_left);
+  return finished;
+}
+
+}  // namespace cairn
