@@ -8,10 +8,12 @@
 #include "cairn/localize/localizer.h"
 #include "cairn/localize/motion_check.h"
 #include "cairn/map/map_view.h"
+#include "cairn/sequence/given_poses.h"
 #include "commands.h"
 #include "common.h"
 #include "localize_outputs.h"
 #include "localize_parameters.h"
+#include "localize_pictures.h"
 #include "localize_query.h"
 
 namespace cairn::app {
@@ -157,8 +159,8 @@ int run_localize(int argc, char** argv) {
 
   const bool follow = arguments.prior == "last";
   std::vector<std::optional<WorldFromCamera>> priors;
-  if (!arguments.prior.empty() && !follow) priors = poses_of_frames(sequence, arguments.prior);
-  const Frontend frontend(sequence, observer_options_for(map.info(), parameters.features));
+  if (!arguments.prior.empty() && !follow) priors = poses_of_frames(sequence, {.path = arguments.prior});
+  const Frontend frontend(sequence, observer_options_for(map.info(), parameters.features, parameters.contrast));
   const Localizer localizer(map, camera, parameters.localize);
   LocalizeRun run(localizer, frontend, parameters.localize.trust, std::move(priors), follow);
   progress->start("localising", static_cast<std::int64_t>(sequence.frames.size()), "images");
@@ -172,6 +174,7 @@ int run_localize(int argc, char** argv) {
       });
   progress->finish();
   check.wait();
+  if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 
   summary.images = sequence.frames.size();
   summary.unreadable = run.unreadable();

@@ -13,6 +13,7 @@ SettingTable LocalizeParameters::table() {
   SettingTable table;
   bind_sequence(sequence, table);
   table.bind("features", features);
+  table.bind("contrast", contrast);
   table.bind("descriptor", descriptor);
   table.bind("keyframes", localize.keyframes);
   table.bind("more_keyframes", localize.more_keyframes);

@@ -13,7 +13,8 @@ namespace cairn::app {
 struct LocalizeParameters {
   SequenceOptions sequence;
   LocalizeOptions localize;
-  int features = 1500;     ///< at most so many of an image
+  int features = 2000;     ///< at most so many of an image
+  double contrast = 0.01;  ///< of SIFT: blurred and dim images have no more
   std::string descriptor;  ///< empty: the map's, which it has to be
 
   /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.

@@ -13,49 +13,46 @@
 namespace cairn {
 namespace {
 
-std::vector<Sight> sights_of(const std::vector<LandmarkMatch>& matches, const ObservedFrame& observed) {
+std::vector<Sight> sights_of(const std::vector<LandmarkMatch>& matches) {
   std::vector<Sight> sights;
   for (const LandmarkMatch& match : matches)
-    sights.push_back({match.point_in_world, match.covariance,
-                      observed.observations[static_cast<std::size_t>(match.feature)]});
+    sights.push_back({match.point_in_world, match.covariance, match.seen});
   return sights;
 }
 
 /// The observation with the landmark's own uncertainty added, as it looks from the distance at which the
 /// keyframe saw it: RANSAC has no pose yet to do better.
-Observation with_landmark_noise(const Rig& rig, const LandmarkMatch& match, const Observation& seen) {
+Observation with_landmark_noise(const Rig& rig, const LandmarkMatch& match) {
   const double sigma = std::sqrt(match.covariance.trace() / 3) / match.distance;  // radians
-  Observation noisy = seen;
-  noisy.sigma_px = std::hypot(seen.sigma_px, sigma * rig.fx);
-  noisy.sigma_d_px = std::hypot(seen.sigma_d_px, sigma * rig.disparity(match.distance));
+  Observation noisy = match.seen;
+  noisy.sigma_px = std::hypot(noisy.sigma_px, sigma * rig.fx);
+  noisy.sigma_d_px = std::hypot(noisy.sigma_d_px, sigma * rig.disparity(match.distance));
   return noisy;
 }
 
-PnpResult ransac(const Rig& rig, const std::vector<LandmarkMatch>& matches, const ObservedFrame& observed,
+PnpResult ransac(const Rig& rig, const std::vector<LandmarkMatch>& matches, FrameId frame,
                  const LocalizeOptions& options) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
   for (const LandmarkMatch& match : matches) {
     points.push_back(match.point_in_world);
-    seen.push_back(
-        with_landmark_noise(rig, match, observed.observations[static_cast<std::size_t>(match.feature)]));
+    seen.push_back(with_landmark_noise(rig, match));
   }
   RansacOptions ransac;
   ransac.max_iterations = options.ransac_iterations;
   ransac.seed = options.seed;
-  ransac.item = static_cast<std::uint64_t>(observed.frame.value);
+  ransac.item = static_cast<std::uint64_t>(frame.value);
   return solve_pnp_ransac(rig, points, seen, ransac);
 }
 
-int count_cells(const Localization& found, const ObservedFrame& observed, const QueryCamera& camera) {
+int count_cells(const Localization& found, const QueryCamera& camera) {
   constexpr int kCells = 4;
   const auto cell = [](double at, int size) {
     return std::clamp(static_cast<int>(std::floor((at + 0.5) * kCells / size)), 0, kCells - 1);
   };
   std::set<int> cells;
   for (const std::int32_t i : found.inliers) {
-    const auto feature = static_cast<std::size_t>(found.matches[static_cast<std::size_t>(i)].feature);
-    const Observation& seen = observed.observations[feature];
+    const Observation& seen = found.matches[static_cast<std::size_t>(i)].seen;
     cells.insert(cell(seen.v, camera.height) * kCells + cell(seen.u, camera.width));
   }
   return static_cast<int>(cells.size());
@@ -160,7 +157,7 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
                                Keyframes keyframes) const {
   Localization found;
   found.matches = matches;
-  const PnpResult first = ransac(camera_.rig, matches, observed, options_);
+  const PnpResult first = ransac(camera_.rig, matches, observed.frame, options_);
   if (!first.found()) return found;
   found.camera_from_world = first.camera_from_world;
   const Keyframes nearby = load(keyframes_near(map_, first.camera_from_world.inverse(),
@@ -170,7 +167,7 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
       keyframes.push_back(keyframe);
   found.matches = match_predicted_landmarks(map_, keyframes, {camera_.rig, observed, first.camera_from_world},
                                             options_.radius_px);
-  const std::vector<Sight> sights = sights_of(found.matches, observed);
+  const std::vector<Sight> sights = sights_of(found.matches);
   const Resection resection = resect(camera_.rig, sights, first.camera_from_world);
   if (!resection.solved) return found;
   found.camera_from_world = resection.camera_from_world;
@@ -179,7 +176,7 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
   found.rms_px = resection.rms_px;
   found.precision = assess_precision(camera_.rig, sights, resection);
   found.independent = count_independent(found, matches);
-  found.cells = count_cells(found, observed, camera_);
+  found.cells = count_cells(found, camera_);
   judge(found);
   return found;
 }

@@ -42,14 +42,16 @@ std::vector<Candidate> keep_nearest(std::vector<Candidate> candidates, std::size
   return kept;
 }
 
-std::vector<LandmarkMatch> with_points(const MapView& map, const std::vector<Candidate>& candidates) {
+std::vector<LandmarkMatch> with_points(const MapView& map, const ObservedFrame& observed,
+                                       const std::vector<Candidate>& candidates) {
   std::vector<LandmarkMatch> matches;
   for (const Candidate& candidate : candidates) {
     const StoredLandmark landmark = map.landmark(candidate.landmark);
     if (!landmark.covariance.allFinite()) continue;
     const Eigen::Vector3d ray = landmark.point_in_world - candidate.keyframe->world_from_camera.translation;
-    matches.push_back(
-        {candidate.feature, candidate.landmark, landmark.point_in_world, landmark.covariance, ray.norm()});
+    const auto feature = static_cast<std::size_t>(candidate.feature);
+    matches.push_back({candidate.feature, observed.observations[feature], candidate.landmark,
+                       landmark.point_in_world, landmark.covariance, ray.norm()});
   }
   return matches;
 }
@@ -95,7 +97,7 @@ std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& 
     for (const Match& match : match_descriptors(descriptors, keyframe->descriptors, options))
       candidates.push_back({match.distance, match.query,
                             keyframe->landmarks[static_cast<std::size_t>(match.train)], keyframe.get()});
-  return with_points(map, keep_nearest(std::move(candidates), descriptors.count()));
+  return with_points(map, observed, keep_nearest(std::move(candidates), descriptors.count()));
 }
 
 std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map, const Keyframes& keyframes,
@@ -111,7 +113,7 @@ std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map, const K
     const auto target = static_cast<std::size_t>(match.query);
     candidates.push_back({match.distance, match.train, targets.landmarks[target], targets.keyframes[target]});
   }
-  return with_points(map, keep_nearest(std::move(candidates), features.keypoints.size()));
+  return with_points(map, query.observed, keep_nearest(std::move(candidates), features.keypoints.size()));
 }
 
 }  // namespace cairn

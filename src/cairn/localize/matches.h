@@ -13,6 +13,7 @@ namespace cairn {
 /// Feature `feature` of the image shows a landmark of the map.
 struct LandmarkMatch {
   std::int32_t feature = -1;
+  Observation seen;  ///< of the feature
   LandmarkId landmark;
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the point, square metres; finite

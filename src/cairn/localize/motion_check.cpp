@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/localize/motion_check.h"
 
+#include <numbers>
+
 namespace cairn {
 
 bool MotionCheck::fits(const Stop& now) const {
   if (!before_ || !last_) return true;
-  constexpr double kSeconds = 1e-9;
+  constexpr double kSeconds = 1e-9, kRadians = std::numbers::pi / 180;
   const double first = kSeconds * static_cast<double>(last_->stamp_ns - before_->stamp_ns);
   const double second = kSeconds * static_cast<double>(now.stamp_ns - last_->stamp_ns);
   if (!(first > 0 && second > 0)) return true;
@@ -16,20 +18,13 @@ bool MotionCheck::fits(const Stop& now) const {
   const Rigid3 step0 = before_->world_from_camera.inverse() * last_->world_from_camera;
   const Rigid3 step1 = last_->world_from_camera.inverse() * now.world_from_camera;
   const double turned = (rotation_log(step1.rotation) - ratio * rotation_log(step0.rotation)).norm();
-  const auto with_errors = [&](double of0, double of1, double of2) {
-    return ratio * of0 + (1 + ratio) * of1 + of2;
-  };
-  return away <= options_.max_acceleration * freedom +
-                     with_errors(before_->position, last_->position, now.position) &&
-         turned <= options_.max_angular_acceleration * freedom +
-                       with_errors(before_->angle, last_->angle, now.angle);
+  return away <= options_.max_acceleration * freedom + options_.max_position &&
+         turned <= options_.max_angular_acceleration * freedom + options_.max_angle_deg * kRadians;
 }
 
 void MotionCheck::check(std::int64_t stamp_ns, Localization& found) {
   if (!found.found()) return;
-  const auto& protection = found.precision.protection;
-  const Stop now{stamp_ns, found.camera_from_world.inverse(), protection.tail<3>().norm(),
-                 protection.head<3>().norm()};
+  const Stop now{stamp_ns, found.camera_from_world.inverse()};
   if (found.verdict == Verdict::good && !fits(now)) {
     found.verdict = Verdict::weak;
     found.weakness = Weakness::inconsistent_with_motion;

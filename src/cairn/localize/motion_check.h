@@ -10,7 +10,7 @@ namespace cairn {
 
 /// Whether the poses of images in a row can be those of one camera on its way: each has to lie where the two
 /// before it and a bounded acceleration a let it, at most a t12 (t12 + t01) / 2 away from where a steady
-/// motion leads (t01, t12: the times between the three), plus what the poses may be wrong by.
+/// motion leads (t01, t12: the times between the three), plus what a trusted pose may be off.
 class MotionCheck {
  public:
   explicit MotionCheck(const TrustOptions& options) : options_(options) {}
@@ -23,7 +23,6 @@ class MotionCheck {
   struct Stop {
     std::int64_t stamp_ns = 0;
     WorldFromCamera world_from_camera;
-    double position = 0, angle = 0;  // that it may be wrong by, metres and radians
   };
   [[nodiscard]] bool fits(const Stop& now) const;
 

@@ -45,11 +45,12 @@ void LocalizeOptions::validate() const {
                   trust.max_angular_acceleration);
 }
 
-ObserverOptions observer_options_for(const MapInfo& map, int features) {
+ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast) {
   ObserverOptions options;
   options.features.descriptor = map.descriptor.name;
   options.features.detector = map.descriptor.name;
   options.features.count = features;
+  options.features.contrast = contrast;
   options.depth_noise.baseline = map.rig.baseline;
   return options;
 }

@@ -45,8 +45,9 @@ struct QueryCamera {
   int width = 0, height = 0;  ///< pixels
 };
 
-/// How features are found and described in images that are looked for in this map.
-[[nodiscard]] ObserverOptions observer_options_for(const MapInfo& map, int features);
+/// How features are found and described in images that are looked for in this map; `contrast` as in
+/// FeatureOptions.
+[[nodiscard]] ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast);
 
 /// InputError that names `source` unless the camera is the map's own: the same size of images, and focal
 /// lengths and centre within a hundredth. A map whose image size is not known fits any size.

@@ -53,6 +53,8 @@ std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& d
   }
   std::vector<PlaceCandidate> candidates;
   for (std::size_t i = 0; i < documents; ++i)
+    if (scores[i] > 0) scores[i] /= std::sqrt(static_cast<double>(map.places().shown_landmarks()[i]));
+  for (std::size_t i = 0; i < documents; ++i)
     if (scores[i] > 0 && map.in_main_part({static_cast<std::int32_t>(i)}))
       candidates.push_back({static_cast<std::int32_t>(i), scores[i] / total});
   const auto kept = static_cast<std::ptrdiff_t>(std::min(most, candidates.size()));

@@ -25,9 +25,19 @@ PlaceFile::PlaceFile(const std::filesystem::path& folder, const MapInfo& info)
   layout_ = layout_of(header_);
   landmarks_ = info.landmarks;
   keyframes_ = info.keyframes.size();
+  count_shown_landmarks();
   kind_ = Descriptors(info.descriptor.norm, info.descriptor.bytes, 0);
   if (header_.bytes > 0)
     tree_.emplace(kind_, DescriptorTreeOptions{static_cast<int>(header_.branching)}, read_branches());
+}
+
+void PlaceFile::count_shown_landmarks() {
+  shown_landmarks_.resize(keyframes_);
+  for (const std::int32_t keyframe : file_.values<std::int32_t>(layout_.keyframes, header_.sightings)) {
+    if (keyframe < 0 || static_cast<std::uint64_t>(keyframe) >= keyframes_)
+      file_.fail(fmt::format("a keyframe below {}", keyframes_), fmt::format("{}", keyframe));
+    ++shown_landmarks_[static_cast<std::size_t>(keyframe)];
+  }
 }
 
 DescriptorTree::Branches PlaceFile::read_branches() const {
@@ -82,11 +92,7 @@ std::vector<PlaceFile::Neighbours> PlaceFile::find(const Descriptors& queries, d
 std::span<const std::int32_t> PlaceFile::keyframes(std::uint64_t first_row, std::uint32_t count) const {
   require(first_row <= header_.sightings && count <= header_.sightings - first_row,
           "rows of Descriptor.bin are asked for");
-  const auto keyframes = file_.values<std::int32_t>(layout_.keyframes + 4 * first_row, count);
-  for (const std::int32_t keyframe : keyframes)
-    if (keyframe < 0 || static_cast<std::uint64_t>(keyframe) >= keyframes_)
-      file_.fail(fmt::format("a keyframe below {}", keyframes_), fmt::format("{}", keyframe));
-  return keyframes;
+  return file_.values<std::int32_t>(layout_.keyframes + 4 * first_row, count);
 }
 
 }  // namespace cairn

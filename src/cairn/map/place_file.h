@@ -43,7 +43,11 @@ class PlaceFile {
   /// The keyframes of so many rows of Descriptor.bin, from `first_row` on.
   [[nodiscard]] std::span<const std::int32_t> keyframes(std::uint64_t first_row, std::uint32_t count) const;
 
+  /// How many landmarks each keyframe shows.
+  [[nodiscard]] const std::vector<std::uint32_t>& shown_landmarks() const { return shown_landmarks_; }
+
  private:
+  void count_shown_landmarks();
   [[nodiscard]] DescriptorTree::Branches read_branches() const;
   void visit(std::span<const DescriptorTree::Visit> visits, const Descriptors& queries, std::int32_t limit,
              std::vector<Neighbours>& found) const;
@@ -53,6 +57,7 @@ class PlaceFile {
   PlaceHeader header_;
   PlaceLayout layout_;
   std::uint64_t landmarks_ = 0, keyframes_ = 0;  // that there are
+  std::vector<std::uint32_t> shown_landmarks_;
   std::optional<DescriptorTree> tree_;           // nothing where the map has no descriptors
 };
 
