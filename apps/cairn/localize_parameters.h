@@ -14,7 +14,7 @@ struct LocalizeParameters {
   SequenceOptions sequence;
   LocalizeOptions localize;
   int features = 2000;     ///< at most so many of an image
-  double contrast = 0.01;  ///< of SIFT: blurred and dim images have no more
+  double contrast = FeatureOptions{}.contrast;  ///< of SIFT: the least that a feature has
   std::string descriptor;  ///< empty: the map's, which it has to be
 
   /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.

@@ -33,7 +33,7 @@ TEST(MotionCheck, a_turn_on_the_spot_is_not_believed) {
   MotionCheck check{TrustOptions()};
   for (int i = 0; i < 3; ++i) {
     Localization found = good_at(0);
-    if (i == 2) found.camera_from_world = CameraFromWorld({rotation_exp({0, 2, 0}), {}});
+    if (i == 2) found.camera_from_world = CameraFromWorld({rotation_exp({0, 2, 0}), Eigen::Vector3d::Zero()});
     check.check(i * kTenth, found);
     EXPECT_EQ(found.verdict == Verdict::good, i < 2) << i;
   }

@@ -24,13 +24,12 @@ struct TrustOptions {
 
 /// Finding the pose of an image in a map.
 struct LocalizeOptions {
-  int keyframes = 5;            ///< that look most like the image, whose landmarks are looked for
-  int more_keyframes = 10;      ///< tried when those do not lead to a pose
-  double max_ratio = 0.85;      ///< of the distances of the nearest and the second nearest descriptor
-  double prior_radius_px = 40;  ///< how far landmarks may lie from where a prior pose has them
-  double radius_px = 6;         ///< the same for a pose found by matching
-  int nearby_keyframes = 8;     ///< around the pose, whose landmarks are looked for as well
-  /// Pose noise of a prior that the map's keyframes are chosen by.
+  int keyframes = 2;             ///< that look most like the image, whose landmarks are looked for
+  int more_keyframes = 14;       ///< tried, as many at a time, when those do not lead to a good pose
+  double max_ratio = 0.85;       ///< of the distances of the nearest and the second nearest descriptor
+  double prior_radius_px = 40;   ///< how far landmarks may lie from where a prior pose has them
+  double radius_px = 6;          ///< the same for a pose found by matching
+  int nearby_keyframes = 6;      ///< around the pose, whose landmarks are looked for as well
   int ransac_iterations = 1000;  ///< of samples of three: enough for 15 % inliers
   TrustOptions trust;
   std::uint64_t seed = 1;

@@ -8,9 +8,11 @@
 
 namespace cairn {
 
-/// The keyframes that look most like an image, best first, at most `most`: each descriptor votes for the
-/// keyframes that show a landmark which looks like it, and weighs the less the more they are; see PlaceIndex,
-/// whose score this is.
+/// The keyframes of the main part that look most like an image, best first, at most `most`: each descriptor
+/// votes for the keyframes that show a landmark which looks like it, and weighs the less the more they are,
+/// as in PlaceIndex. A keyframe that shows n landmarks gets votes by chance in proportion to n, so its sum is
+/// divided by the root of n, the length of its vector of words (Sivic and Zisserman 2003); scores of one
+/// query can be compared.
 [[nodiscard]] std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& descriptors,
                                                       std::size_t most);
 
