@@ -10,6 +10,7 @@ int run_info(int argc, char** argv);
 int run_rectify(int argc, char** argv);
 int run_slam(int argc, char** argv);
 int run_map(int argc, char** argv);
+int run_localize(int argc, char** argv);
 int run_cloud(int argc, char** argv);
 int run_octree(int argc, char** argv);
 int run_graph(int argc, char** argv);

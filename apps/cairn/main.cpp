@@ -28,6 +28,8 @@ constexpr Command kCommands[] = {
     {"slam", "RGB-D or stereo sequence to trajectory and map, coloured cloud and octree",
      cairn::app::run_slam},
     {"map", "stereo or RGB-D sequence with its poses to a map of landmarks", cairn::app::run_map},
+    {"localize", "poses of images in a map, with their uncertainty and whether to trust them",
+     cairn::app::run_localize},
     {"cloud", "coloured cloud (.ply, .pcd) from a sequence and its poses", cairn::app::run_cloud},
     {"octree", "occupancy octree (.bt, .ot) from a cloud, or from a sequence and its poses",
      cairn::app::run_octree},

@@ -32,6 +32,7 @@ def map_files(size=32, descriptor="ORB"):
     points = sealed(b"CAIRNPNT" + struct.pack("<IIQIIQ12d", 3, 1, 2, 0, 2, 0, *[0.5] * 3, *[0.0] * 9))
     rows = b"".join(struct.pack("<iiff32s", number, 1, 31, 1, bytes([1] * 32)) for number in range(2))
     descriptors = sealed(b"CAIRNDSC" + struct.pack("<IIIIQ", 3, 32, 0, 48, 2) + rows)
+    places = sealed(b"CAIRNPLC" + struct.pack("<6I2Qd2Q32sI4x2i", 3, 32, 0, 16, 0, 1, 1, 2, 0.0, 0, 1, bytes([1] * 32), 0, 0, 1))
     poses = b"# t tx ty tz qx qy qz qw\n" + b"".join(b"%d 0 0 0 0 0 0 1\n" % (number + 1) for number in range(2))
     info = {"format": "cairn keyframe map", "version": 3, "frame": "camera of the first keyframe",
             "rig": {"fx": 50.0, "fy": 50.0, "cx": 31.5, "cy": 23.5, "baseline": 0.1},
@@ -39,11 +40,11 @@ def map_files(size=32, descriptor="ORB"):
             "counts": {"keyframes": 2, "features": 4, "landmarks": 1, "sightings": 2},
             "keyframes": [{"file": f"frames/{number:06}.{descriptor.lower()}", "frame": 5 * number, "stamp_ns": 10**9 * (number + 1),
                            "part": number, "crc32": checksum(frame)} for number, frame in enumerate(frames)],
-            "files": {"Descriptor.bin": checksum(descriptors), "Point.bin": checksum(points), "poses.txt": zlib.crc32(poses),
+            "files": {"Descriptor.bin": checksum(descriptors), "Place.bin": checksum(places), "Point.bin": checksum(points), "poses.txt": zlib.crc32(poses),
                       "uvlist.txt": zlib.crc32(b"# id\n")}}
     body = (json.dumps(info, indent=2).rpartition("\n")[0] + ",\n").encode()
     return {"map.json": body + b'  "crc32": %d\n}\n' % zlib.crc32(body), "poses.txt": poses, "uvlist.txt": b"# id\n",
-            "Point.bin": points, "Descriptor.bin": descriptors,
+            "Point.bin": points, "Descriptor.bin": descriptors, "Place.bin": places,
             **{f"frames/{number:06}.{descriptor.lower()}": frame for number, frame in enumerate(frames)}}
 
 
@@ -83,6 +84,8 @@ CASES = [
     Case("map without table", "info map", ("map/uvlist.txt: expected a readable file",), (MAP, without("map/uvlist.txt"))),
     Case("map without points", "info map", ("map/Point.bin: expected a readable file",), (MAP, without("map/Point.bin"))),
     Case("map without descriptors", "info map", ("map/Descriptor.bin: expected a readable file",), (MAP, without("map/Descriptor.bin"))),
+    Case("map without places", "info map", ("map/Place.bin: expected a readable file",), (MAP, without("map/Place.bin"))),
+    Case("damaged places", "info map", ("map/Place.bin: expected contents that fit their CRC-32",), (MAP, flipped("map/Place.bin", 100))),
     Case("map without a frame", "info map", ("map/frames/000001.orb: expected a readable file",), (MAP, without("map/frames/000001.orb"))),
     Case("empty map.json", "info map", ("map/map.json:1: expected JSON, found something else", REMEDY), (MAP, file("map/map.json", ""))),
     Case("map.json of an older version", "info map", ("map/map.json: expected version 3 of the format, found version 2", VERSION_REMEDY),

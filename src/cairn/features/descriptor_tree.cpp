@@ -46,6 +46,24 @@ std::size_t index_of_smallest(const std::vector<std::int32_t>& distances) {
 
 }  // namespace
 
+bool is_tree(const DescriptorTree::Branches& branches, std::size_t fan_out, std::size_t words) {
+  const std::size_t count = branches.used.size();
+  if (branches.children.size() != count * fan_out || branches.centres.size() != count * fan_out * words ||
+      branches.leaves == 0)
+    return false;
+  for (std::size_t branch = 0; branch < count; ++branch) {
+    const auto used = static_cast<std::size_t>(branches.used[branch]);
+    if (used == 0 || used > fan_out) return false;
+    for (std::size_t i = 0; i < used; ++i) {
+      const std::int32_t child = branches.children[branch * fan_out + i];
+      const bool later =
+          child >= 0 && static_cast<std::size_t>(child) > branch && static_cast<std::size_t>(child) < count;
+      if (!later && (child >= 0 || leaf_index(child) >= branches.leaves)) return false;
+    }
+  }
+  return true;
+}
+
 void DescriptorTreeOptions::validate() const {
   require(branching >= 2, "a cluster is cut into two at least");
   require(leaf_capacity >= branching, "a full leaf has a row for every centre");
@@ -64,15 +82,37 @@ DescriptorTree::DescriptorTree(const Descriptors& kind, const DescriptorTreeOpti
   std::iota(ascending_.begin(), ascending_.end(), 0);
 }
 
+DescriptorTree::DescriptorTree(const Descriptors& kind, const DescriptorTreeOptions& options,
+                               Branches branches)
+    : DescriptorTree(kind, options) {
+  require(is_tree(branches, fan_out_, words_), "the branches are those of a tree");
+  used_ = std::move(branches.used);
+  children_ = std::move(branches.children);
+  centres_ = std::move(branches.centres);
+  leaves_.resize(branches.leaves);
+}
+
+void DescriptorTree::measure_rows(const Descriptors& queries, std::size_t i, const std::uint64_t* rows,
+                                  std::span<const std::int32_t> ascending,
+                                  std::vector<std::int32_t>& distances) const {
+  measure(queries.words() + i * words_, rows, ascending, distances);
+}
+
 void DescriptorTree::measure(const std::uint64_t* row, const std::uint64_t* rows, std::size_t count,
                              std::vector<std::int32_t>& distances) const {
-  distances.resize(count);
+  measure(row, rows, std::span(ascending_).first(count), distances);
+}
+
+void DescriptorTree::measure(const std::uint64_t* row, const std::uint64_t* rows,
+                             std::span<const std::int32_t> ascending,
+                             std::vector<std::int32_t>& distances) const {
+  distances.resize(ascending.size());
   DistanceList list;
   list.query = reinterpret_cast<const std::uint8_t*>(row);
   list.rows = reinterpret_cast<const std::uint8_t*>(rows);
   list.words64 = words_;
-  list.indices = ascending_.data();
-  list.count = count;
+  list.indices = ascending.data();
+  list.count = ascending.size();
   list.distances = distances.data();
   kernels_->to_rows(list);
 }

@@ -37,8 +37,19 @@ class DescriptorTree {
     std::size_t capacity = 0;          ///< rows that it takes before it is cut
   };
 
+  /// All but the rows: to be stored, and to find leaves again whose rows are kept elsewhere.
+  struct Branches {
+    std::vector<std::int32_t> used;      ///< places of each branch that have a child, of `branching`
+    std::vector<std::int32_t> children;  ///< of branch b from b * branching on: a later branch, or ~leaf
+    std::vector<std::uint64_t> centres;  ///< one row for each place
+    std::size_t leaves = 1;
+  };
+
   /// `kind`: of what norm and size the rows are.
   DescriptorTree(const Descriptors& kind, const DescriptorTreeOptions& options);
+  /// A tree with these branches and empty leaves. PreconditionError where they are of no tree.
+  DescriptorTree(const Descriptors& kind, const DescriptorTreeOptions& options, Branches branches);
+  [[nodiscard]] Branches branches() const { return {used_, children_, centres_, leaves_.size()}; }
 
   /// Adds row `i` of `descriptors`, which are of the tree's kind.
   void add(const Descriptors& descriptors, std::size_t i, std::int32_t owner);
@@ -69,6 +80,11 @@ class DescriptorTree {
     measure(queries.words() + i * words_, leaf.rows.data(), leaf.owners.size(), distances);
   }
 
+  /// The same to `count` rows that are kept elsewhere, one after the other; `ascending` has 0, 1, ... as
+  /// many.
+  void measure_rows(const Descriptors& queries, std::size_t i, const std::uint64_t* rows,
+                    std::span<const std::int32_t> ascending, std::vector<std::int32_t>& distances) const;
+
   /// Asks the memory for leaves that come soon after visit `at`, so that it need not be waited for.
   void fetch_ahead(std::span<const Visit> visits, std::size_t at) const;
 
@@ -97,6 +113,8 @@ class DescriptorTree {
   [[nodiscard]] Child root() const { return used_.empty() ? ~0 : 0; }
   void measure(const std::uint64_t* row, const std::uint64_t* rows, std::size_t count,
                std::vector<std::int32_t>& distances) const;
+  void measure(const std::uint64_t* row, const std::uint64_t* rows, std::span<const std::int32_t> ascending,
+               std::vector<std::int32_t>& distances) const;
   /// Index in children_ of the child of `branch` whose centre is nearest; `distances` to all centres.
   std::size_t nearest_child(const std::uint64_t* row, Child branch,
                             std::vector<std::int32_t>& distances) const;
@@ -119,5 +137,10 @@ class DescriptorTree {
   std::vector<Leaf> leaves_;
   std::vector<std::int32_t> ascending_;  // 0, 1, ... as many as the largest leaf has rows, for the kernels
 };
+
+/// Whether every child is a later branch or a leaf that there is, so that each way from the root ends in a
+/// leaf. `words` of 64 bits are one row.
+[[nodiscard]] bool is_tree(const DescriptorTree::Branches& branches, std::size_t branching,
+                           std::size_t words);
 
 }  // namespace cairn

@@ -129,9 +129,10 @@ TEST(MapFile, what_is_erased_is_left_out) {
   write_map(folder.path(), scene_map());
   std::vector<std::string> names;
   for (const auto& [name, contents] : contents_of(folder.path())) names.push_back(name);
-  EXPECT_EQ(names, (std::vector<std::string>{".cairn", "Descriptor.bin", "Point.bin", "frames/000000.akaze",
-                                             "frames/000001.akaze", "frames/000002.akaze",
-                                             "frames/000003.akaze", "map.json", "poses.txt", "uvlist.txt"}));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{".cairn", "Descriptor.bin", "Place.bin", "Point.bin",
+                                      "frames/000000.akaze", "frames/000001.akaze", "frames/000002.akaze",
+                                      "frames/000003.akaze", "map.json", "poses.txt", "uvlist.txt"}));
   const std::string frame = read_file(folder.path() / "frames/000002.akaze");
   EXPECT_EQ(at<std::int32_t>(frame, 16),
             30);  // of the fourth keyframe, whose second feature shows landmark 0
@@ -143,7 +144,7 @@ TEST(MapFile, replaces_a_map_as_a_whole_and_nothing_else) {
   const TestFolder folder;
   write_map(folder.path() / "map", scene_map());
   write_map(folder.path() / "map", small_map());
-  EXPECT_EQ(contents_of(folder.path() / "map").size(), 8U);  // none of the files of before
+  EXPECT_EQ(contents_of(folder.path() / "map").size(), 9U);  // none of the files of before
   write_file(folder.path() / "notes.txt", "not of a map");
   EXPECT_THROW(write_map(folder.path(), small_map()), InputError);
 }

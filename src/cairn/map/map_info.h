@@ -23,6 +23,7 @@ constexpr const char* kPosesFile = "poses.txt";
 constexpr const char* kUvlistFile = "uvlist.txt";
 constexpr const char* kPointFile = "Point.bin";
 constexpr const char* kDescriptorFile = "Descriptor.bin";
+constexpr const char* kPlaceFile = "Place.bin";
 
 /// "hamming" or "l2".
 [[nodiscard]] std::string_view to_string(Norm norm);

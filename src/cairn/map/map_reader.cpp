@@ -11,6 +11,7 @@
 #include "cairn/map/map_file.h"
 #include "cairn/map/map_info.h"
 #include "cairn/map/map_texts.h"
+#include "cairn/map/place_layout.h"
 
 namespace cairn {
 namespace {
@@ -53,6 +54,7 @@ MapFiles read_files(const fs::path& folder) {
   files.frames = read_frames(folder, files.info);
   files.landmarks = read_point_file(folder, files.info);
   files.sightings = read_descriptor_file(folder, files.info);
+  check_sealed_file(folder / kPlaceFile, kPlaceKind, files.info.checksum_of(kPlaceFile));
   return files;
 }
 

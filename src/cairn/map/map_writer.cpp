@@ -11,6 +11,7 @@
 #include "cairn/geometry/unit_rotation.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/map/landmark_files.h"
+#include "cairn/map/place_file.h"
 #include "cairn/map/uvlist.h"
 
 namespace cairn {
@@ -201,6 +202,7 @@ void MapWriter::finish() {
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);
+  info.checksums[kPlaceFile] = write_place_file(folder_, info, folder_ / kSpoolFolder);
   write_info(info);  // last: it says that all others are there
 }
 

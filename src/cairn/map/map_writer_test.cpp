@@ -153,7 +153,7 @@ TEST(MapWriter, half_written_frames_of_a_crash_are_gone) {
   MapWriter::discard_spools(folder.path() / "map");
   const Map map = read_map(folder.path() / "map");
   EXPECT_EQ(map.keyframes().size(), 1U);
-  EXPECT_EQ(contents_of(folder.path() / "map").size(), 6U);
+  EXPECT_EQ(contents_of(folder.path() / "map").size(), 7U);
 }
 
 TEST(MapWriter, what_is_true_of_the_whole_map_comes_back) {

@@ -12,17 +12,6 @@ namespace {
 
 constexpr double kBlue = 2.0 / 3;  // hue
 
-/// The image in grey, dimmed so that colours stand out.
-void paste(RgbImage& picture, const GrayImage& image, int left) {
-  constexpr double kDim = 0.75;
-  for (int v = 0; v < image.height(); ++v) {
-    for (int u = 0; u < image.width(); ++u) {
-      const auto value = static_cast<std::uint8_t>(kDim * image(u, v));
-      picture(left + u, v) = {value, value, value};
-    }
-  }
-}
-
 Eigen::Vector2d place(const Keypoint& keypoint, double left = 0) {
   return {static_cast<double>(keypoint.u) + left, static_cast<double>(keypoint.v)};
 }
@@ -47,7 +36,7 @@ SizeRange sizes_of(std::span<const Keypoint> keypoints) {
 
 RgbImage draw_keypoints(const GrayImage& image, std::span<const Keypoint> keypoints) {
   RgbImage picture(image.width(), image.height());
-  paste(picture, image, 0);
+  paste_dimmed(picture, image, 0);
   if (keypoints.empty()) return picture;
   constexpr double kRadiusPerSize = 0.15;  // the patch itself would hide the image
   constexpr double kMinRadius = 2;
@@ -69,8 +58,8 @@ RgbImage draw_matches(const GrayImage& first, std::span<const Keypoint> first_ke
                       const GrayImage& second, std::span<const Keypoint> second_keypoints,
                       std::span<const Match> matches) {
   RgbImage picture(first.width() + second.width(), std::max(first.height(), second.height()));
-  paste(picture, first, 0);
-  paste(picture, second, first.width());
+  paste_dimmed(picture, first, 0);
+  paste_dimmed(picture, second, first.width());
   constexpr double kDotRadius = 1.5, kLineWidth = 0.8;
   for (const Match& match : matches) {
     const Keypoint& from = first_keypoints[static_cast<std::size_t>(match.query)];

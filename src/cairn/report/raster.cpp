@@ -80,4 +80,14 @@ Rgb8 color_of_hue(double hue) {
   return {channel(0), channel(1.0 / 3), channel(2.0 / 3)};
 }
 
+void paste_dimmed(RgbImage& picture, const GrayImage& image, int left) {
+  constexpr double kDim = 0.75;
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      const auto value = static_cast<std::uint8_t>(kDim * image(u, v));
+      picture(left + u, v) = {value, value, value};
+    }
+  }
+}
+
 }  // namespace cairn

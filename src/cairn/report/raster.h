@@ -14,6 +14,9 @@ void draw_line(RgbImage& image, const Eigen::Vector2d& from, const Eigen::Vector
 void draw_circle(RgbImage& image, const Eigen::Vector2d& center, double radius, const Rgb8& color,
                  double width = 1);
 
+/// The image in grey, from column `left` on, dimmed so that colours stand out. It fits into the picture.
+void paste_dimmed(RgbImage& picture, const GrayImage& image, int left);
+
 /// Around the circle of hues at full saturation: 0 red, 1/3 green, 2/3 blue, 1 red again.
 [[nodiscard]] Rgb8 color_of_hue(double hue);
 

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/stopwatch.h"
+#include "cairn/frontend/frontend.h"
+#include "cairn/localize/localizer.h"
+#include "cairn/localize/motion_check.h"
+#include "cairn/map/map_view.h"
+#include "cairn/sequence/given_poses.h"
+#include "commands.h"
+#include "common.h"
+#include "localize_outputs.h"
+#include "localize_parameters.h"
+#include "localize_pictures.h"
+#include "localize_query.h"
+
+namespace cairn::app {
+namespace {
+
+struct LocalizeArguments {
+  CommonOptions common;
+  SequenceArguments sequence;
+  std::string map, output, prior;
+  bool mono = false, any_camera = false, draw = false;
+};
+
+void declare(CLI::App& app, LocalizeArguments& arguments) {
+  app.add_option("MAP", arguments.map, "map folder, or a run with one in its map/")->required();
+  app.add_option("SEQ", arguments.sequence.folder, "sequence, folder of images or one image")->required();
+  app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
+      ->type_name("RUN")
+      ->required();
+  app.add_option("--prior", arguments.prior,
+                 "where the images are thought to be: a trajectory in the map's world, or 'last': where the "
+                 "image before was found")
+      ->type_name("FILE|last");
+  app.add_flag("--mono", arguments.mono, "without depth and right images");
+  app.add_flag("--any-camera", arguments.any_camera, "the images need not be of the map's camera");
+  app.add_flag("--draw", arguments.draw, "a picture for each image in RUN/pictures");
+  add_sequence_options(app, arguments.sequence);
+  add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
+  app.footer([] {
+    return "Example: cairn localize demo/map demo/street -o demo/found\n"
+           "         cairn localize RUN image.png -o found --camera camera.yaml --draw\n"
+           "Parameters for --set and --config with their defaults; the README says what they mean:\n" +
+           LocalizeParameters().table().format();
+  });
+}
+
+LocalizeParameters gather_parameters(const LocalizeArguments& arguments, const MapInfo& map) {
+  LocalizeParameters parameters;
+  parameters.sequence = arguments.sequence.options();
+  const SettingTable table = parameters.table();
+  if (!arguments.common.config.empty()) {
+    for (const Setting& setting : read_settings(arguments.common.config)) table.apply(setting);
+  }
+  for (const std::string& text : arguments.common.settings) table.apply(parse_setting(text, "--set"));
+  parameters.localize.seed = arguments.common.seed;
+  parameters.validate(map);
+  return parameters;
+}
+
+/// Finds the images of a sequence one after the other, and keeps what was found.
+class LocalizeRun {
+ public:
+  LocalizeRun(const Localizer& localizer, const Frontend& frontend, const TrustOptions& trust,
+              std::vector<std::optional<WorldFromCamera>> priors, bool follow)
+      : localizer_(localizer),
+        frontend_(frontend),
+        motion_(trust),
+        priors_(std::move(priors)),
+        follow_(follow) {}
+
+  struct Item {
+    Arrival arrival;
+    LocalizedImage image;
+  };
+
+  /// Beside each other.
+  [[nodiscard]] Item produce(std::size_t index) const {
+    Item item{frontend_(index), {}};
+    if (item.arrival.error.empty() && !follow_)
+      localize(priors_.empty() ? std::nullopt : priors_[index], item);
+    return item;
+  }
+
+  /// In order; false for an image that could not be read.
+  bool take(std::size_t index, Item&& item, const Sequence& sequence) {
+    if (!item.arrival.error.empty()) {
+      if (images_.empty() && unreadable_.empty()) std::rethrow_exception(item.arrival.failure);
+      unreadable_.push_back(item.arrival.error);
+      return false;
+    }
+    if (follow_) localize(last_, item);
+    motion_.check(item.arrival.observed.stamp_ns, item.image.found);
+    if (item.image.found.verdict == Verdict::good) last_ = item.image.found.camera_from_world.inverse();
+    item.image.position = static_cast<std::int64_t>(index);
+    item.image.stamp_ns = item.arrival.observed.stamp_ns;
+    item.image.file = sequence.frames[index].color.filename().string();
+    item.image.feature_seconds = item.arrival.feature_seconds;
+    images_.push_back(std::move(item.image));
+    return true;
+  }
+
+  [[nodiscard]] const std::vector<LocalizedImage>& images() const { return images_; }
+  [[nodiscard]] const std::vector<std::string>& unreadable() const { return unreadable_; }
+
+ private:
+  void localize(const std::optional<WorldFromCamera>& prior, Item& item) const {
+    Stopwatch watch;
+    item.image.found = localizer_.localize(item.arrival.observed, prior);
+    item.image.localize_seconds = watch.lap();
+  }
+
+  const Localizer& localizer_;
+  const Frontend& frontend_;
+  MotionCheck motion_;
+  std::vector<std::optional<WorldFromCamera>> priors_;  // none, or one for each image
+  bool follow_;                                         // the last pose is the prior of the next image
+  std::optional<WorldFromCamera> last_;
+  std::vector<LocalizedImage> images_;
+  std::vector<std::string> unreadable_;
+};
+
+int exit_code(const std::vector<LocalizedImage>& images) {
+  for (const LocalizedImage& image : images)
+    if (image.found.found()) return 0;
+  fmt::print(stderr,
+             "cairn localize: none of {} images was found in the map.\n  Do they show its place, and is the "
+             "calibration theirs?\n",
+             images.size());
+  return 1;
+}
+
+}  // namespace
+
+int run_localize(int argc, char** argv) {
+  LocalizeArguments arguments;
+  CLI::App app("Finds images in a map: their poses, how sure they are, and whether to trust them.",
+               "localize");
+  declare(app, arguments);
+  if (const auto code = parse(app, argc, argv)) return *code;
+
+  Stopwatch watch;
+  LocalizeSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}};
+  const MapView map(arguments.map);
+  summary.open_seconds = watch.seconds();
+  const LocalizeParameters parameters = gather_parameters(arguments, map.info());
+  const Sequence sequence =
+      open_query(arguments.sequence.folder, parameters.sequence, map.info(), arguments.mono);
+  const QueryCamera camera = query_camera(sequence, map.info());
+  if (!arguments.any_camera) require_same_camera(map.info(), camera, sequence.calibration_source);
+  OutputFolder folder(arguments.output, "run");
+  const Executor executor(arguments.common.thread_count());
+  const auto progress = make_progress(arguments.common);
+  Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
+
+  const bool follow = arguments.prior == "last";
+  std::vector<std::optional<WorldFromCamera>> priors;
+  if (!arguments.prior.empty() && !follow) priors = poses_of_frames(sequence, {.path = arguments.prior});
+  const Frontend frontend(sequence, observer_options_for(map.info(), parameters.features, parameters.contrast));
+  const Localizer localizer(map, camera, parameters.localize);
+  LocalizeRun run(localizer, frontend, parameters.localize.trust, std::move(priors), follow);
+  progress->start("localising", static_cast<std::int64_t>(sequence.frames.size()), "images");
+  executor.ordered_pipeline<LocalizeRun::Item>(
+      sequence.frames.size(), [&](std::size_t i) { return run.produce(i); },
+      [&](std::size_t i, LocalizeRun::Item&& item) {
+        if (!run.take(i, std::move(item), sequence))
+          progress->warn(run.unreadable().back() + " It is skipped.");
+        progress->update(static_cast<std::int64_t>(i) + 1);
+        return !progress->stop_requested();
+      });
+  progress->finish();
+  check.wait();
+  if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
+
+  summary.images = sequence.frames.size();
+  summary.unreadable = run.unreadable();
+  summary.stopped = run.images().size() + run.unreadable().size() < sequence.frames.size();
+  summary.threads = executor.threads();
+  summary.total_seconds = watch.seconds();
+  write_file(folder.work() / "trajectory.txt", format_tum_trajectory(trajectory_of(run.images())));
+  write_file(folder.work() / "localization.csv", format_localization_csv(run.images()));
+  const std::string json = format_localize_json(run.images(), summary);
+  write_file(folder.work() / "run.json", json);
+  folder.commit();
+  arguments.common.json ? fmt::print("{}", json) : print_localize_summary(run.images(), summary);
+  return exit_code(run.images());
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cairn/localize/options.h"
+#include "cairn/map/map_info.h"
+#include "cairn/sequence/sequence.h"
+
+namespace cairn::app {
+
+/// Images to be found in a map: a sequence, a folder of images or one image. Of images that come without a
+/// calibration it is that of the map's own camera, without distortion. `mono`: left images or colour only.
+[[nodiscard]] Sequence open_query(const std::string& path, const SequenceOptions& options, const MapInfo& map,
+                                  bool mono);
+
+[[nodiscard]] QueryCamera query_camera(const Sequence& sequence, const MapInfo& map);
+
+}  // namespace cairn::app

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "cairn/frontend/observer.h"
+#include "cairn/geometry/rig.h"
+#include "cairn/map/map_info.h"
+
+namespace cairn {
+
+/// When a pose is called good.
+struct TrustOptions {
+  int min_inliers = 30;  ///< wrong poses had fewer than 20 on all recordings tried
+  /// Of them, matches by descriptor alone: those found around a predicted place agree with any pose.
+  int min_independent = 12;
+  int min_cells = 4;             ///< of 4 x 4 that the image is cut into, with an inlier
+  double max_gdop = 0.05;        ///< metres per pixel of noise in every observation
+  double max_position = 0.5;     ///< metres: largest protection level of an axis
+  double max_angle_deg = 5;      ///< degrees: the same of the rotation
+  double max_acceleration = 20;  ///< m/s^2 between poses in a row: hand-held cameras and cars have less
+  double max_angular_acceleration = 60;  ///< rad/s^2
+};
+
+/// Finding the pose of an image in a map.
+struct LocalizeOptions {
+  int keyframes = 2;             ///< that look most like the image, whose landmarks are looked for
+  int more_keyframes = 14;       ///< tried, as many at a time, when those do not lead to a good pose
+  double max_ratio = 0.85;       ///< of the distances of the nearest and the second nearest descriptor
+  double prior_radius_px = 40;   ///< how far landmarks may lie from where a prior pose has them
+  double radius_px = 6;          ///< the same for a pose found by matching
+  int nearby_keyframes = 6;      ///< around the pose, whose landmarks are looked for as well
+  int ransac_iterations = 1000;  ///< of samples of three: enough for 15 % inliers
+  TrustOptions trust;
+  std::uint64_t seed = 1;
+
+  /// InputError naming the parameter that is out of range.
+  void validate() const;
+};
+
+/// The camera that an image to be localised was seen by.
+struct QueryCamera {
+  Rig rig;                    ///< that the image's observations are of
+  int width = 0, height = 0;  ///< pixels
+};
+
+/// How features are found and described in images that are looked for in this map; `contrast` as in
+/// FeatureOptions.
+[[nodiscard]] ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast);
+
+/// InputError that names `source` unless the camera is the map's own: the same size of images, and focal
+/// lengths and centre within a hundredth. A map whose image size is not known fits any size.
+void require_same_camera(const MapInfo& map, const QueryCamera& camera, const std::string& source);
+
+}  // namespace cairn

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "cairn/localize/resection.h"
+
+namespace cairn {
+
+/// How well a pose is determined. Axes are the camera's: x right, y down, z forward; a vector of six has the
+/// rotation about them first (radians), then the position along them (metres).
+///
+/// With T' = perturb_left((w, v), T) the camera's centre moves by -R^T v in the world, to first order and
+/// whatever w: so the covariance of v is that of the position, in the camera's axes.
+struct Precision {
+  Matrix6d covariance = Matrix6d::Zero();  ///< of the left perturbation
+  /// Dilution of precision: standard deviations were every observation wrong by a pixel (1 px in u, v and d)
+  /// and the landmarks exact; radians and metres per pixel. gdop is the root of the sum of squares of the
+  /// position's three.
+  Vector6d dilution = Vector6d::Zero();
+  double gdop = 0;
+  /// What the error of an axis exceeds with a probability of 1e-3, also if one of the inliers is wrong by as
+  /// much as goes unnoticed: 3.29 sigma plus the largest slope (error of the axis by error of an observation,
+  /// as in receiver autonomous integrity monitoring, Brown and Chin 1998) times the largest error that its
+  /// inlier test misses.
+  Vector6d protection = Vector6d::Zero();
+};
+
+/// Of a solved resection. Its covariance is scaled by the variance factor where that is above 1.
+[[nodiscard]] Precision assess_precision(const Rig& rig, std::span<const Sight> sights,
+                                         const Resection& resection);
+
+}  // namespace cairn
