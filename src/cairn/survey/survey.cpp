@@ -80,6 +80,7 @@ class Run {
     begin();
     follow();
     if (!result_.stopped) {
+      require_frames();
       surveyor_->finish(executor_);
       writer_->finish();
       MapWriter::discard_spools(folder_);
@@ -105,6 +106,9 @@ class Run {
       const auto index = static_cast<std::size_t>(frames[i].observed.frame.value);
       Arrival arrival = frontend_(index);
       if (arrival.failure) std::rethrow_exception(arrival.failure);
+      if (!frames[i].kept.empty() && frames[i].kept.back() >= arrival.observed.observations.size())
+        throw InputError({input_.sequence.frames[index].color.string(), 0, "the image of the earlier run",
+                          "another one", "Begin anew."});
       scale_sigmas(options_.covariance.sigma_px, arrival.observed);
       frames[i].observed = select(arrival.observed, frames[i].kept);
       frames[i].given = *input_.poses.frames[index];
@@ -142,6 +146,14 @@ class Run {
     result_.stopped = progress_.stop_requested() && index + 1 < input_.sequence.frames.size();
     if (result_.stopped || since_checkpoint_.seconds() > kCheckpointSeconds) keep();
     return !result_.stopped;
+  }
+
+  void require_frames() const {
+    const SurveyCounts& counts = surveyor_->state().counts;
+    if (counts.frames > 0) return;
+    throw InputError({input_.sequence.folder.string(), 0, "a frame with a pose that can be read",
+                      fmt::format("{} that cannot be read", counts.unreadable),
+                      "Look at what was said of each of them."});
   }
 
   void keep() {
