@@ -70,7 +70,7 @@ void print_indicators(const MapFigures& figures) {
     fmt::print("\n");
   }
   if (figures.without_covariance > 0)
-    fmt::print("{} landmarks have no covariance: no standard deviation of theirs is counted\n",
+    fmt::print("no covariance: {} landmarks, of which no standard deviation is counted\n",
                figures.without_covariance);
 }
 
