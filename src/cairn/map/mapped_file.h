@@ -28,6 +28,8 @@ class MappedFile {
   [[nodiscard]] std::uint64_t size() const { return size_; }
   /// `count` bytes from `offset` on, which lie in the file; valid as long as this.
   [[nodiscard]] const char* bytes(std::uint64_t offset, std::uint64_t count) const;
+  /// Asks the memory for bytes that are wanted soon, so that they need not be waited for.
+  void fetch(std::uint64_t offset, std::uint64_t count) const;
   template <class Value>
   [[nodiscard]] Value at(std::uint64_t offset) const {
     static_assert(std::is_arithmetic_v<Value>);

@@ -51,23 +51,32 @@ DescriptorTree::Branches PlaceFile::read_branches() const {
   return branches;
 }
 
+PlaceFile::LeafRows PlaceFile::rows_of(std::int32_t leaf) const {
+  const auto bounds =
+      file_.values<std::uint64_t>(layout_.leaf_begins + 8 * static_cast<std::uint64_t>(leaf), 2);
+  if (bounds[0] > bounds[1] || bounds[1] > header_.rows) file_.fail("leaves one after the other", "others");
+  return {bounds[0], bounds[1] - bounds[0]};
+}
+
 void PlaceFile::visit(std::span<const DescriptorTree::Visit> visits, const Descriptors& queries,
                       std::int32_t limit, std::vector<Neighbours>& found) const {
-  const auto bounds = file_.values<std::uint64_t>(
-      layout_.leaf_begins + 8 * static_cast<std::uint64_t>(visits.front().leaf), 2);
-  if (bounds[0] > bounds[1] || bounds[1] > header_.rows) file_.fail("leaves one after the other", "others");
-  const std::uint64_t count = bounds[1] - bounds[0];
-  const auto rows =
-      file_.values<std::uint64_t>(layout_.rows + bounds[0] * kind_.stride(), count * kind_.stride() / 8);
-  const auto landmarks = file_.values<std::uint32_t>(layout_.landmarks + 4 * bounds[0], count);
-  std::vector<std::int32_t> ascending(count), distances;
+  const LeafRows leaf = rows_of(visits.front().leaf);
+  const std::size_t stride = kind_.stride();
+  const auto rows = file_.values<std::uint64_t>(layout_.rows + leaf.first * stride, leaf.count * stride / 8);
+  const auto landmarks = file_.values<std::uint32_t>(layout_.landmarks + 4 * leaf.first, leaf.count);
+  std::vector<std::int32_t> ascending(leaf.count), distances;
   std::iota(ascending.begin(), ascending.end(), 0);
   for (const DescriptorTree::Visit& visit : visits) {
     tree_->measure_rows(queries, static_cast<std::size_t>(visit.query), rows.data(), ascending, distances);
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < leaf.count; ++i)
       if (distances[i] <= limit && landmarks[i] < landmarks_)
         found[static_cast<std::size_t>(visit.query)].push_back({landmarks[i], distances[i]});
   }
+}
+
+void PlaceFile::fetch_leaf(std::int32_t leaf) const {
+  const LeafRows rows = rows_of(leaf);
+  file_.fetch(layout_.rows + rows.first * kind_.stride(), rows.count * kind_.stride());
 }
 
 std::vector<PlaceFile::Neighbours> PlaceFile::find(const Descriptors& queries, double max_distance_share,
@@ -80,6 +89,7 @@ std::vector<PlaceFile::Neighbours> PlaceFile::find(const Descriptors& queries, d
   const std::vector<DescriptorTree::Visit> visits = tree_->find_leaves(queries, leaves_per_descriptor);
   for (std::size_t begin = 0, end = 0; begin < visits.size(); begin = end) {
     while (end < visits.size() && visits[end].leaf == visits[begin].leaf) ++end;
+    if (end < visits.size()) fetch_leaf(visits[end].leaf);
     visit(std::span(visits).subspan(begin, end - begin), queries, limit, found);
   }
   for (Neighbours& of_query : found)

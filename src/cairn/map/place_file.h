@@ -49,6 +49,11 @@ class PlaceFile {
  private:
   void count_shown_landmarks();
   [[nodiscard]] DescriptorTree::Branches read_branches() const;
+  struct LeafRows {
+    std::uint64_t first = 0, count = 0;
+  };
+  [[nodiscard]] LeafRows rows_of(std::int32_t leaf) const;
+  void fetch_leaf(std::int32_t leaf) const;
   void visit(std::span<const DescriptorTree::Visit> visits, const Descriptors& queries, std::int32_t limit,
              std::vector<Neighbours>& found) const;
 
@@ -58,7 +63,7 @@ class PlaceFile {
   PlaceLayout layout_;
   std::uint64_t landmarks_ = 0, keyframes_ = 0;  // that there are
   std::vector<std::uint32_t> shown_landmarks_;
-  std::optional<DescriptorTree> tree_;           // nothing where the map has no descriptors
+  std::optional<DescriptorTree> tree_;  // nothing where the map has no descriptors
 };
 
 }  // namespace cairn

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kBranching = 16;
 constexpr std::size_t kLeafRows = 128;                     // at most, where all rows are in the sample
-constexpr std::size_t kSampleRows = std::size_t{1} << 17;  // for 17 MB of SIFT
+constexpr std::size_t kSampleRows = std::size_t{1} << 19;  // 67 MB of SIFT
 constexpr std::size_t kBatchRows = 4096;
 constexpr std::uint32_t kSightingsPerRow = 4;  // neighbouring views of a landmark look alike
 
