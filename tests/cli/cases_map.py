@@ -46,15 +46,10 @@ def map_files(size=32, descriptor="ORB"):
             "keyframes": [{"file": f"frames/{number:06}.{descriptor.lower()}", "frame": 5 * number, "stamp_ns": 10**9 * (number + 1),
                            "part": number, "crc32": checksum(frame)} for number, frame in enumerate(frames)],
             "files": {"Descriptor.bin": checksum(descriptors), "Place.bin": checksum(places), "Point.bin": checksum(points), "poses.txt": zlib.crc32(poses),
-                      "uvlist.txt": zlib.crc32(b"# id\n")}}
-    body = (json.dumps(info, indent=2).rpartition("\n")[0] + ",\n").encode()
-    return {"map.json": body + b'  "crc32": %d\n}\n' % zlib.crc32(body), "poses.txt": poses, "uvlist.txt": b"# id\n",
-            "Point.bin": points, "Descriptor.bin": descriptors, "Place.bin": places,
-            "files": {"Descriptor.bin": checksum(descriptors), "Point.bin": checksum(points), "poses.txt": zlib.crc32(poses),
                       "uvlist.txt": zlib.crc32(table)}}
     body = (json.dumps(info, indent=2).rpartition("\n")[0] + ",\n").encode()
     return {"map.json": body + b'  "crc32": %d\n}\n' % zlib.crc32(body), "poses.txt": poses, "uvlist.txt": table,
-            "Point.bin": points, "Descriptor.bin": descriptors,
+            "Point.bin": points, "Descriptor.bin": descriptors, "Place.bin": places,
             **{f"frames/{number:06}.{descriptor.lower()}": frame for number, frame in enumerate(frames)}}
 
 
