@@ -13,6 +13,8 @@
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
 #include "cairn/map/map_texts.h"
+#include "cairn/map/mapped_file.h"
+#include "cairn/map/place_layout.h"
 #include "cairn/map/uvlist.h"
 
 namespace cairn {
@@ -125,6 +127,7 @@ MapFigures read_map_figures(const fs::path& map_folder) {
   figures.info = read_map_info(folder / kMapInfoFile);
   for (const KeyframeEntry& keyframe : figures.info.keyframes) ++figures.part_keyframes[keyframe.part];
   (void)read_map_poses(folder, figures.info);
+  check_sealed_file(folder / kPlaceFile, kPlaceKind, figures.info.checksum_of(kPlaceFile));
   const SightingSet shown = read_frames(folder, figures.info);
   if (shown != read_landmarks(folder, figures))
     fail(folder / kPointFile, "the sightings that frames/ has, with their descriptors", "others");
