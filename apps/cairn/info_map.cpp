@@ -3,90 +3,125 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "cairn/map/map_file.h"
+#include "cairn/map/map_figures.h"
 
 namespace cairn::app {
 namespace {
 
-struct MapFigures {
-  std::size_t keyframes = 0, features = 0, landmarks = 0, sightings = 0;
-  std::size_t most_sightings = 0;                      ///< of one landmark
-  std::map<std::int32_t, std::size_t> part_keyframes;  ///< by part
-};
+using Json = nlohmann::ordered_json;
 
-MapFigures count(const cairn::Map& map) {
-  MapFigures figures;
-  figures.keyframes = map.keyframes().size();
-  figures.landmarks = map.landmarks().size();
-  for (const Keyframe& keyframe : map.keyframes()) {
-    figures.features += keyframe.observed.observations.size();
-    ++figures.part_keyframes[keyframe.part];
-  }
-  for (const Landmark& landmark : map.landmarks()) {
-    figures.sightings += landmark.sightings.size();
-    figures.most_sightings = std::max(figures.most_sightings, landmark.sightings.size());
-  }
-  return figures;
-}
-
-double ratio(std::size_t a, std::size_t b) {
+double ratio(std::uint64_t a, std::uint64_t b) {
   return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
 }
 
-/// "hamming, 32 bytes"; where no keyframe has a feature, the bytes are 0.
-std::string describe_descriptors(const cairn::Map& map) {
-  const Descriptors& descriptors = map.keyframes().front().observed.features.descriptors;
-  return fmt::format("{} ({}, {} bytes)", map.descriptor(),
-                     descriptors.norm() == Norm::hamming ? "Hamming" : "L2", descriptors.bytes());
+/// What is told of a distribution, which is not empty, and what it is called in JSON.
+constexpr std::array<const char*, 6> kStatistics = {"min",           "percentile_5", "median",
+                                                    "percentile_95", "max",          "mean"};
+std::array<double, 6> statistics_of(const Distribution& values) {
+  return {values.min(),          values.quantile(0.05), values.quantile(0.5),
+          values.quantile(0.95), values.max(),          values.mean()};
 }
 
-void print_text(const std::filesystem::path& folder, const cairn::Map& map, const MapFigures& figures) {
-  const Rig& rig = map.rig();
-  fmt::print("map          {}\n", folder.string());
-  fmt::print("keyframes    {}, {:.0f} features each\n", figures.keyframes,
-             ratio(figures.features, figures.keyframes));
+std::vector<std::size_t> part_sizes(const MapFigures& figures) {
+  std::vector<std::size_t> sizes;
+  for (const auto& [part, size] : figures.part_keyframes) sizes.push_back(size);
+  return sizes;
+}
+
+void print_counts(const MapFigures& figures) {
+  const MapInfo& info = figures.info;
+  fmt::print("keyframes    {}, {:.0f} features each\n", info.keyframes.size(),
+             ratio(info.features, info.keyframes.size()));
   fmt::print("parts        {}", figures.part_keyframes.size());
-  if (figures.part_keyframes.size() > 1) {
-    std::vector<std::size_t> sizes;
-    for (const auto& [part, size] : figures.part_keyframes) sizes.push_back(size);
-    fmt::print(", of {} keyframes", fmt::join(sizes, ", "));
-  }
-  fmt::print("\nlandmarks    {}\n", figures.landmarks);
-  fmt::print("sightings    {}, {:.2f} per landmark, {} at most\n", figures.sightings,
-             ratio(figures.sightings, figures.landmarks), figures.most_sightings);
-  fmt::print("descriptors  {}\n", describe_descriptors(map));
+  if (figures.part_keyframes.size() > 1)
+    fmt::print(", of {} keyframes", fmt::join(part_sizes(figures), ", "));
+  fmt::print("\nlandmarks    {}\n", info.landmarks);
+  fmt::print("sightings    {}, {:.2f} per landmark, {} at most\n", info.sightings,
+             ratio(info.sightings, info.landmarks), figures.most_sightings);
+}
+
+void print_header(const MapInfo& info) {
+  const Rig& rig = info.rig;
+  fmt::print("descriptors  {} ({}, {} bytes)\n", info.descriptor.name,
+             info.descriptor.norm == Norm::hamming ? "Hamming" : "L2", info.descriptor.bytes);
   fmt::print("camera       fx {:.7g} fy {:.7g} cx {:.7g} cy {:.7g} px, baseline {:.6g} m\n", rig.fx, rig.fy,
              rig.cx, rig.cy, rig.baseline);
+  if (info.width > 0) fmt::print("images       {} x {} pixels\n", info.width, info.height);
+  fmt::print("world        {}\n", info.world);
+  if (info.origin)
+    fmt::print("origin       latitude {:.9f}, longitude {:.9f} degrees, height {:.3f} m (WGS 84)\n",
+               info.origin->latitude_deg, info.origin->longitude_deg, info.origin->height_m);
 }
 
-void print_json(const std::filesystem::path& folder, const cairn::Map& map, const MapFigures& figures) {
-  const Rig& rig = map.rig();
-  nlohmann::ordered_json json;
+/// Metres, where the name does not say otherwise.
+void print_indicators(const MapFigures& figures) {
+  if (figures.info.landmarks == 0) return;
+  fmt::print("\n{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "indicator", "min", "5 %", "median", "95 %",
+             "max", "mean");
+  for (const auto& [name, values] : figures.indicators) {
+    if (values.count() == 0) continue;
+    fmt::print("{:<16}", name);
+    for (const double value : statistics_of(values)) fmt::print("{:>10.4g}", value);
+    fmt::print("\n");
+  }
+  if (figures.without_covariance > 0)
+    fmt::print("no covariance: {} landmarks, of which no standard deviation is counted\n",
+               figures.without_covariance);
+}
+
+Json indicators_json(const MapFigures& figures) {
+  Json json = Json::object();
+  for (const auto& [name, values] : figures.indicators) {
+    json[name]["count"] = values.count();
+    if (values.count() == 0) continue;
+    const auto statistics = statistics_of(values);
+    for (std::size_t i = 0; i < statistics.size(); ++i) json[name][kStatistics[i]] = statistics[i];
+  }
+  return json;
+}
+
+void print_json(const std::filesystem::path& folder, const MapFigures& figures) {
+  const MapInfo& info = figures.info;
+  Json json;
   json["map"] = folder.string();
-  json["keyframes"] = figures.keyframes;
-  json["features"] = figures.features;
-  json["parts"] = nlohmann::ordered_json::array();
-  for (const auto& [part, size] : figures.part_keyframes) json["parts"].push_back(size);
-  json["landmarks"] = figures.landmarks;
-  json["sightings"] = figures.sightings;
-  json["sightings_per_landmark"] = ratio(figures.sightings, figures.landmarks);
-  json["descriptor"] = map.descriptor();
-  json["camera"] = {{"fx", rig.fx}, {"fy", rig.fy}, {"cx", rig.cx}, {"cy", rig.cy}};
-  json["baseline_m"] = rig.baseline;
-  fmt::print("{}\n", json.dump(2));
+  json["keyframes"] = info.keyframes.size();
+  json["features"] = info.features;
+  json["parts"] = part_sizes(figures);
+  json["landmarks"] = info.landmarks;
+  json["sightings"] = info.sightings;
+  json["sightings_per_landmark"] = ratio(info.sightings, info.landmarks);
+  json["most_sightings"] = figures.most_sightings;
+  json["descriptor"] = info.descriptor.name;
+  json["camera"] = {{"fx", info.rig.fx}, {"fy", info.rig.fy}, {"cx", info.rig.cx}, {"cy", info.rig.cy}};
+  json["baseline_m"] = info.rig.baseline;
+  json["image"] = {{"width", info.width}, {"height", info.height}};
+  json["world"] = info.world;
+  json["origin"] = info.origin ? Json{{"latitude_deg", info.origin->latitude_deg},
+                                      {"longitude_deg", info.origin->longitude_deg},
+                                      {"height_m", info.origin->height_m}}
+                               : Json();
+  json["without_covariance"] = figures.without_covariance;
+  json["indicators"] = indicators_json(figures);
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+void print_text(const std::filesystem::path& folder, const MapFigures& figures) {
+  fmt::print("map          {}\n", folder.string());
+  print_counts(figures);
+  print_header(figures.info);
+  print_indicators(figures);
 }
 
 }  // namespace
 
 void print_map_info(const std::filesystem::path& folder, bool json) {
-  const cairn::Map map = read_map(folder);
-  json ? print_json(folder, map, count(map)) : print_text(folder, map, count(map));
+  const MapFigures figures = read_map_figures(folder);
+  json ? print_json(folder, figures) : print_text(folder, figures);
 }
 
 }  // namespace cairn::app

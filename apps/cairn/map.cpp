@@ -3,6 +3,8 @@
 
 #include "cairn/core/file.h"
 #include "cairn/core/stopwatch.h"
+#include "cairn/map/colmap_export.h"
+#include "cairn/report/landmark_ply.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/survey.h"
 #include "commands.h"
@@ -18,7 +20,7 @@ struct MapArguments {
   CommonOptions common;
   SequenceArguments sequence;
   PoseArguments poses;
-  std::string output;
+  std::string output, exported;
 };
 
 void declare(CLI::App& app, MapArguments& arguments) {
@@ -26,11 +28,15 @@ void declare(CLI::App& app, MapArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "map folder; one that cairn wrote is replaced")
       ->type_name("MAP")
       ->required();
+  app.add_option("--export", arguments.exported, "also the model in another program's files, in MAP/colmap")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"colmap"}, CLI::ignore_case));
   add_pose_options(app, arguments.poses);
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true});
   app.footer([] {
     return "Example: cairn map SEQ --poses poses.txt -o map\n"
+           "         cairn map SEQ --poses gnss.csv -o map --export colmap\n"
            "Stopped by Ctrl-C or killed, the same command goes on where it was: what is done lies in "
            "MAP.unfinished.\n"
            "Parameters for --set and --config with their defaults; the README says what they mean:\n" +
@@ -62,7 +68,7 @@ int warn_if_empty(const SurveyResult& result) {
   fmt::print(stderr,
              "cairn map: not one landmark: {} tracks of features, {} in too few frames, {} that contradict "
              "the poses.\n  Look at the calibration, the poses' frame ('cairn info SEQ') and "
-             "--time-offset.\n",
+             "--pose-offset.\n",
              result.counts.tracks, result.counts.too_short, result.counts.contradictory);
   return 1;
 }
@@ -94,6 +100,8 @@ int run_map(int argc, char** argv) {
   if (result.stopped) return report_stop(result, summary);
   write_file(folder.work() / "report.json", format_map_report(result));
   write_file(folder.work() / "config.yaml", settings);
+  write_landmark_ply(folder.work(), folder.work() / "landmarks.ply");
+  if (!arguments.exported.empty()) write_colmap_model(folder.work(), folder.work() / "colmap");
   folder.commit();
   summary.total_seconds = watch.seconds();
   arguments.common.json ? fmt::print("{}", format_map_json(result, summary))

@@ -92,7 +92,7 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
 void simulate_street(const Arguments& arguments, SimulateStreetOptions options) {
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
-  if (arguments.noise == "none") options.noise = StereoNoise::none;
+  if (arguments.noise == "none") options.noise = StreetNoise::none;
   options.validate();
   OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);

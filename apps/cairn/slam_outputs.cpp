@@ -122,8 +122,9 @@ void print_start(const SlamResult& result) {
         "start map    not recognised: the trajectory is in a world of its own, a new part of the map\n");
     return;
   }
+  const std::int32_t part = result.main_part();
   const auto in_main = [&](const FrameTrack& track) {
-    return track.tracked() && result.map.part_of(*track.reference) == result.main_part();
+    return track.tracked() && result.map.part_of(*track.reference) == part;
   };
   const auto first = std::find_if(result.frames.begin(), result.frames.end(), in_main);
   fmt::print("start map    recognised; the trajectory is in its world, from frame {} on\n",

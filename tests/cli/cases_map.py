@@ -10,6 +10,10 @@ from harness import Case, main
 from inputs import file, without
 
 
+UVLIST_HEADER = "# id x y z frames std_x std_y std_z rms_px " + " ".join(
+    f"{statistic}_{quantity}" for quantity in ("distance", "lateral", "depth", "angle_deg") for statistic in ("mean", "min", "max", "std")) + "\n"
+
+
 def sealed(body):
     blocks = b"".join(struct.pack("<I", zlib.crc32(body[i:i + 4096])) for i in range(0, len(body), 4096))
     return body + blocks + struct.pack("<I", zlib.crc32(blocks))
@@ -34,6 +38,7 @@ def map_files(size=32, descriptor="ORB"):
     descriptors = sealed(b"CAIRNDSC" + struct.pack("<IIIIQ", 3, 32, 0, 48, 2) + rows)
     places = sealed(b"CAIRNPLC" + struct.pack("<6I2Qd2Q32sI4x2i", 3, 32, 0, 16, 0, 1, 1, 2, 0.0, 0, 1, bytes([1] * 32), 0, 0, 1))
     poses = b"# t tx ty tz qx qy qz qw\n" + b"".join(b"%d 0 0 0 0 0 0 1\n" % (number + 1) for number in range(2))
+    table = (UVLIST_HEADER + "0 0.5 0.5 0.5 2 0 0 0 0.25" + 4 * " 1.5 1 2 0.5" + "\n").encode()
     info = {"format": "cairn keyframe map", "version": 3, "frame": "camera of the first keyframe",
             "rig": {"fx": 50.0, "fy": 50.0, "cx": 31.5, "cy": 23.5, "baseline": 0.1},
             "image": {"width": 64, "height": 48}, "descriptor": {"name": descriptor, "norm": "hamming", "bytes": 32}, "settings": "",
@@ -45,6 +50,11 @@ def map_files(size=32, descriptor="ORB"):
     body = (json.dumps(info, indent=2).rpartition("\n")[0] + ",\n").encode()
     return {"map.json": body + b'  "crc32": %d\n}\n' % zlib.crc32(body), "poses.txt": poses, "uvlist.txt": b"# id\n",
             "Point.bin": points, "Descriptor.bin": descriptors, "Place.bin": places,
+            "files": {"Descriptor.bin": checksum(descriptors), "Point.bin": checksum(points), "poses.txt": zlib.crc32(poses),
+                      "uvlist.txt": zlib.crc32(table)}}
+    body = (json.dumps(info, indent=2).rpartition("\n")[0] + ",\n").encode()
+    return {"map.json": body + b'  "crc32": %d\n}\n' % zlib.crc32(body), "poses.txt": poses, "uvlist.txt": table,
+            "Point.bin": points, "Descriptor.bin": descriptors,
             **{f"frames/{number:06}.{descriptor.lower()}": frame for number, frame in enumerate(frames)}}
 
 
@@ -64,13 +74,18 @@ def flipped(name, offset):
     return make
 
 
+def replaced(name, old, new):
+    return lambda root: (root / name).write_text((root / name).read_text().replace(old, new))
+
+
 def cut(name, count):
     return lambda root: (root / name).write_bytes((root / name).read_bytes()[:-count])
 
 
 MAP = map_folder()
 FIGURES = ("keyframes    2, 2 features each", "parts        2, of 1, 1 keyframes", "landmarks    1\n", "sightings    2, 2.00 per landmark",
-           "descriptors  ORB (Hamming, 32 bytes)")
+           "descriptors  ORB (Hamming, 32 bytes)", "images       64 x 48 pixels", "rms_px                0.25      0.25",
+           "mean_depth             1.5", "no covariance: 1 landmarks")
 VERSION_REMEDY = "Make the map again, or read it with the version of cairn that made it."
 REMEDY = "Copy the map again from where it was made, or make it again."
 
@@ -78,6 +93,10 @@ CASES = [
     Case("a good map", "info map", given=(MAP,), code=0, prints=FIGURES),
     Case("map of a run", "info run", given=(map_folder("run/map"),), code=0, prints=FIGURES),
     Case("a good map as JSON", "info map --json", given=(MAP,), code=0, prints=('"landmarks": 1', '"parts": [\n    1,\n    1\n  ]')),
+    Case("indicators as JSON", "info map --json", given=(MAP,), code=0,
+         prints=('"origin": null', '"without_covariance": 1', '"std_x": {\n      "count": 0\n    }', '"min_lateral": {\n      "count": 1,\n      "min": 1.0')),
+    Case("damaged table", "info map", ("map/uvlist.txt:2: expected a number for 'rms_px', found '0.25|1.5'", REMEDY), (MAP, replaced("map/uvlist.txt", "0.25 ", "0.25|"))),
+    Case("table of another map", "info map", ("map/uvlist.txt: expected contents that fit their CRC-32", REMEDY), (MAP, replaced("map/uvlist.txt", "0.25", "0.75"))),
     Case("frames of a map", "info map --frames 0:2", ("--frames: expected a sequence to apply it to, found a map",), (MAP,)),
     Case("map without map.json", "info map", ("map/map.json: expected a readable file", "found"), (MAP, without("map/map.json"))),
     Case("map without poses", "info map", ("map/poses.txt: expected a readable file",), (MAP, without("map/poses.txt"))),

@@ -16,6 +16,15 @@ def camera(old, new):
     return replaced("seq/camera.yaml", old, new)
 
 
+BODY = "body: {body_from_camera: {translation: [0, 0, 0], quaternion_xyzw: [0.5, 0.5, 0.5, 0.5]}}\n"
+TABLE = "time_s,latitude,longitude,height,roll,pitch,heading\n" + "".join(f"{t},49,8,100,0,0,45\n" for t in (1.0, 1.1, 1.2))
+
+
+def body_sequence(root):
+    SEQ(root)
+    file("seq/camera.yaml", CAMERA + BODY)(root)
+
+
 CASES = [
     Case("a good sequence", "info seq", given=(SEQ,), code=0, prints=("TUM", "frames       3")),
     Case("frames as slices", "info seq --frames 0:2", given=(SEQ,), code=0, prints=("frames       2",)),
@@ -77,6 +86,21 @@ CASES = [
          (SEQ, file("p.txt", "1 0 0 0 0 0 1\n"))),
     Case("poses of another recording", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected poses within", "share its clock"),
          (SEQ, file("p.txt", "900 0 0 0 0 0 0 1\n"))),
+    Case("table of poses", "cloud seq --poses p.csv -o a.ply --json", given=(body_sequence, file("p.csv", TABLE)), code=0, leaves=("a.ply",),
+         prints=('"fused": 3',)),
+    Case("table of poses with an offset", "cloud seq --poses p.csv --pose-offset 0.1 -o a.ply --json",
+         given=(body_sequence, file("p.csv", TABLE)), code=0, leaves=("a.ply",), prints=('"fused": 2', '"without_pose": 1')),
+    Case("table of poses too far apart", "cloud seq --poses p.csv --pose-gap 0.05 --pose-offset 0.05 -o a.ply",
+         ("p.csv: expected poses within", "at most 0.05 s apart"), (body_sequence, file("p.csv", TABLE))),
+    Case("negative gap of poses", "cloud seq --pose-gap -1 -o a.ply", ("--pose-gap",), (SEQ,)),
+    Case("table of poses without a body", "cloud seq --poses p.csv -o a.ply",
+         ("camera.yaml: expected 'body: {body_from_camera: ...}'", "quaternion_xyzw: [0.5, 0.5, 0.5, 0.5]"), (SEQ, file("p.csv", TABLE))),
+    Case("table of poses without heading", "cloud seq --poses p.csv -o a.ply", ("p.csv:1: expected 'heading' among the columns",),
+         (body_sequence, file("p.csv", TABLE.replace("heading", "course")))),
+    Case("folder without poses", "cloud seq --poses seq -o a.ply", ("seq: expected poses: OXTS packets",), (SEQ,)),
+    Case("OXTS packets without times", "info seq", given=(SEQ, file("seq/oxts/data/0000000000.txt", "")), code=0, prints=("truth        3 poses",)),
+    Case("info of OXTS packets", "info seq", given=(SEQ, file("seq/oxts/data/0000000000.txt", ""), file("seq/oxts/timestamps.txt", "")),
+         code=0, prints=("poses        OXTS packets in seq/oxts",)),
     Case("empty poses", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected poses, one a line",), (SEQ, file("p.txt", "# none\n"))),
     Case("sequence without poses", "cloud seq -o a.ply", ("Give --poses FILE",), (SEQ, without("seq/groundtruth.txt"))),
     # outputs

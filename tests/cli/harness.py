@@ -92,16 +92,21 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(wanted - changed, set(), f"not written\n{output}")
 
 
-def main(cases):
-    """Runs all rows, or those whose names contain one of the words given after the program."""
+def main(cases, others=()):
+    """Runs all rows and the tests of the TestCases `others`, or those whose names contain one of the words given after
+    the program."""
     parser = argparse.ArgumentParser()
     parser.add_argument("program", help="path of the cairn to test")
     parser.add_argument("words", nargs="*")
     arguments = parser.parse_args()
     CommandLine.program = str(Path(arguments.program).resolve())
     suite = unittest.TestSuite()
+    def is_wanted(name):
+        return not arguments.words or any(word in name for word in arguments.words)
+    for other in others:
+        suite.addTests(other(name) for name in unittest.defaultTestLoader.getTestCaseNames(other) if is_wanted(name))
     for case in cases:
-        if not arguments.words or any(word in case.name for word in arguments.words):
+        if is_wanted(case.name):
             setattr(CommandLine, case.name, lambda self, case=case: self.check(case))
             suite.addTest(CommandLine(case.name))
     if len({case.name for case in cases}) < len(cases):

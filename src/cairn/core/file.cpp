@@ -57,25 +57,37 @@ void fail_writing(const fs::path& path, std::string_view doing, int error_number
       {path.string(), 0, fmt::format("to {}", doing), std::strerror(error_number), remedy_for(error_number)});
 }
 
-std::string read_file(const fs::path& path) {
+FileReader::FileReader(const fs::path& path) : path_(path) {
   std::error_code error;
-  if (fs::is_directory(path, error)) {
+  if (fs::is_directory(path, error))
     throw InputError({path.string(), 0, "a file", "a folder", "Name the file inside it."});
-  }
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) {
-    throw InputError(
-        {path.string(), 0, "a readable file", std::strerror(errno), "Check the path and its permissions."});
-  }
-  std::string contents;
+  file_.reset(std::fopen(path.c_str(), "rb"));
+  if (!file_) fail(std::strerror(errno), "Check the path and its permissions.");
   const auto size = fs::file_size(path, error);
-  if (!error) contents.reserve(size);
+  if (!error) size_ = size;
+}
+
+void FileReader::fail(std::string found, std::string remedy) const {
+  throw InputError({path_.string(), 0, "a readable file", std::move(found), std::move(remedy)});
+}
+
+std::size_t FileReader::read(char* bytes, std::size_t count) {
+  const std::size_t got = std::fread(bytes, 1, count, file_.get());
+  if (std::ferror(file_.get()) != 0) fail("a read error", "Check the disk.");
+  return got;
+}
+
+void FileReader::seek(std::uint64_t position) {
+  if (::fseeko(file_.get(), static_cast<off_t>(position), SEEK_SET) != 0)
+    fail(std::strerror(errno), "Check the disk.");
+}
+
+std::string read_file(const fs::path& path) {
+  FileReader file(path);
+  std::string contents;
+  contents.reserve(file.size());
   char buffer[1 << 16];
-  std::size_t got = 0;
-  while ((got = std::fread(buffer, 1, sizeof buffer, file)) > 0) contents.append(buffer, got);
-  const bool failed = std::ferror(file) != 0;
-  std::fclose(file);
-  if (failed) throw InputError({path.string(), 0, "a readable file", "a read error", "Check the disk."});
+  while (const std::size_t got = file.read(buffer, sizeof buffer)) contents.append(buffer, got);
   return contents;
 }
 

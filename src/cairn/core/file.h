@@ -1,14 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace cairn {
+
+/// A file that is read piece by piece. InputError where it is missing, a folder or unreadable.
+class FileReader {
+ public:
+  explicit FileReader(const std::filesystem::path& path);
+
+  /// Bytes of the whole file; 0 of what is no regular file.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
+  /// The next `count` bytes, or fewer where the file ends; returns how many.
+  [[nodiscard]] std::size_t read(char* bytes, std::size_t count);
+  /// The next byte read is this one.
+  void seek(std::uint64_t position);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }
+  };
+  [[noreturn]] void fail(std::string found, std::string remedy) const;
+
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::uint64_t size_ = 0;
+};
 
 /// The whole file. InputError where it is missing, a folder or unreadable.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);

@@ -76,10 +76,10 @@ OutputFolder::OutputFolder(const fs::path& target, std::string_view kind)
 OutputFolder::OutputFolder(const fs::path& target, std::string_view kind,
                            std::function<bool(const fs::path& work)> is_worth_keeping)
     : given_(target), target_(absolute_without_link(target)) {
-  require_ours(target, kind);
   std::error_code error;
   in_place_ = fs::exists(target_, error) && !can_be_renamed(target_);
   const fs::path unfinished = (in_place_ ? target_ / "result" : target_).string() + ".unfinished";
+  if (entries_of(target_) != std::vector{unfinished}) require_ours(target, kind);
   require_ours(unfinished, kind);
   prepare(unfinished, kind);
   lock();

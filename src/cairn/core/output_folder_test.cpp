@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <set>
 #include <string>
@@ -148,6 +149,120 @@ TEST_F(OutputFolderTest, is_committed_once) {
   OutputFolder output(target_, "run");
   output.commit();
   EXPECT_THROW(output.commit(), PreconditionError);
+}
+
+/// What is to be gone on with lies in a file of that name.
+bool has_state(const fs::path& work) {
+  return fs::exists(work / "state");
+}
+
+/// Work on `target` that is given up when it has written a file.
+void give_up(const fs::path& target, const std::string& name) {
+  const OutputFolder output(target, "run", has_state);
+  write_file(output.work() / name, name);
+}
+
+/// What the refusal of going on says was found; "" where nothing is refused.
+std::string refusal_to_go_on(const fs::path& target) {
+  try {
+    const OutputFolder output(target, "run", has_state);
+  } catch (const InputError& error) {
+    return error.details().found;
+  }
+  return "";
+}
+
+TEST_F(OutputFolderTest, keeps_unfinished_work_that_is_worth_it) {
+  make(target_, "old");
+  give_up(target_, "state");
+  EXPECT_EQ(names(folder_), (Names{"run", "run.unfinished"}));
+  EXPECT_EQ(names(target_), (Names{".cairn", "old"}));
+  OutputFolder output(target_, "run", has_state);
+  EXPECT_EQ(output.work(), folder_ / "run.unfinished");
+  EXPECT_EQ(names(output.work()), (Names{".cairn", "state"}));
+  write_file(output.work() / "new", "new");
+  output.commit();
+  EXPECT_EQ(names(folder_), Names{"run"});
+  EXPECT_EQ(names(target_), (Names{".cairn", "new", "state"}));
+}
+
+TEST_F(OutputFolderTest, removes_unfinished_work_that_is_not) {
+  give_up(folder_ / "new" / "run", "nothing");
+  EXPECT_TRUE(names(folder_).empty());
+  give_up(target_, "state");
+  {
+    const OutputFolder output(target_, "run", has_state);
+    fs::remove(output.work() / "state");
+  }
+  EXPECT_TRUE(names(folder_).empty());
+}
+
+TEST_F(OutputFolderTest, two_do_not_work_on_one) {
+  {
+    const OutputFolder output(target_, "run", has_state);
+    write_file(output.work() / "state", "of the first");
+    EXPECT_EQ(refusal_to_go_on(target_), "another run that works in it");
+    EXPECT_EQ(read_file(output.work() / "state"), "of the first");
+  }
+  EXPECT_EQ(refusal_to_go_on(target_), "");
+}
+
+TEST_F(OutputFolderTest, another_process_locks_until_it_is_killed) {
+  std::array<int, 2> ready{};
+  ASSERT_EQ(::pipe(ready.data()), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const OutputFolder output(target_, "run", has_state);
+    write_file(output.work() / "state", "half");
+    (void)!::write(ready[1], "!", 1);
+    ::pause();
+  }
+  char signal = 0;
+  ASSERT_EQ(::read(ready[0], &signal, 1), 1);
+  EXPECT_EQ(refusal_to_go_on(target_), "another run that works in it");
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  for (const int end : ready) ::close(end);
+  EXPECT_EQ(refusal_to_go_on(target_), "");
+  EXPECT_EQ(names(folder_ / "run.unfinished"), (Names{".cairn", "state"}));
+}
+
+TEST_F(OutputFolderTest, goes_on_in_place) {
+  fs::create_directory(target_);
+  const fs::path before = fs::current_path();
+  fs::current_path(target_);
+  give_up(".", "state");
+  EXPECT_EQ(names(target_), Names{"result.unfinished"});
+  OutputFolder output(".", "run", has_state);
+  EXPECT_EQ(names(output.work()), (Names{".cairn", "state"}));
+  output.commit();
+  fs::current_path(before);
+  EXPECT_EQ(names(target_), (Names{".cairn", "state"}));
+}
+
+TEST_F(OutputFolderTest, goes_on_in_place_of_an_earlier_result) {
+  make(target_, "old");
+  const fs::path before = fs::current_path();
+  fs::current_path(target_);
+  give_up(".", "state");
+  EXPECT_EQ(names(target_), (Names{".cairn", "old", "result.unfinished"}));
+  OutputFolder output(".", "run", has_state);
+  output.commit();
+  fs::current_path(before);
+  EXPECT_EQ(names(target_), (Names{".cairn", "state"}));
+}
+
+TEST_F(OutputFolderTest, does_not_go_on_in_what_is_not_its_own) {
+  fs::create_directory(folder_ / "run.unfinished");
+  write_file(folder_ / "run.unfinished" / "thesis.tex", "years of work");
+  EXPECT_EQ(refusal_to_go_on(target_), "a folder with other contents");
+  EXPECT_EQ(names(folder_ / "run.unfinished"), Names{"thesis.tex"});
+  fs::create_directory(target_);
+  write_file(target_ / "thesis.tex", "years of work");
+  fs::remove_all(folder_ / "run.unfinished");
+  EXPECT_EQ(refusal_to_go_on(target_), "a folder with other contents");
+  EXPECT_EQ(names(folder_), Names{"run"});
 }
 
 TEST_F(OutputFolderTest, survives_a_killed_writer) {

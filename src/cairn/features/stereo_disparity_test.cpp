@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "cairn/core/error.h"
 #include "cairn/features/stereo_test_images.h"
@@ -142,6 +143,49 @@ TEST(MeasureDisparity, refuses_what_has_no_meaning) {
   EXPECT_THROW((void)measure_disparity(small, small, 30, 20, 0, nan), PreconditionError);
   EXPECT_EQ(measure_disparity(small, small, nan, 20, 0, 1).status, DisparityStatus::no_room);
   EXPECT_EQ(measure_disparity(small, small, 30, 20, nan, 1).status, DisparityStatus::no_room);
+}
+
+TEST(FindDisparity, finds_the_place_from_nothing) {
+  const Surface surface{23.4, 0.02, 0.03};
+  const TestPair pair = make_pair(200, 60, surface, Waves(5, 25, 2), 1, 2);
+  int found = 0;
+  for (int u = 60; u < 180; u += 10) {
+    for (int v = 10; v < 50; v += 10) {
+      const auto disparity = find_disparity(pair.left, pair.right, u, v, 0, 45);
+      if (!disparity) continue;
+      ++found;
+      EXPECT_NEAR(*disparity, surface.disparity(pair.left, u, v), 1.0);
+    }
+  }
+  EXPECT_GE(found, 40);  // of 48
+}
+
+TEST(FindDisparity, repeated_texture_has_no_place) {
+  constexpr int kPeriod = 12;
+  TestPair pair{GrayImage(200, 60), GrayImage(200, 60)};
+  for (int v = 0; v < 60; ++v) {
+    for (int u = 0; u < 200; ++u) {
+      pair.left(u, v) = test::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * u / kPeriod));
+      pair.right(u, v) = test::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * (u + 5) / kPeriod));
+    }
+  }
+  EXPECT_FALSE(find_disparity(pair.left, pair.right, 100, 30, 0, 45));
+  EXPECT_EQ(find_disparity(pair.left, pair.right, 100, 30, 0, 9), 5);  // one period: one place
+}
+
+TEST(FindDisparity, what_the_other_image_does_not_show_has_no_place) {
+  const TestPair pair = make_pair(200, 60, {14, 0, 0}, Waves(5, 25, 2), 1, 2);
+  const TestPair other = make_pair(200, 60, {14, 0, 0}, Waves(5, 25, 77), 1, 2);
+  int found = 0;
+  for (int u = 60; u < 180; u += 4) found += find_disparity(pair.left, other.right, u, 30, 0, 45) ? 1 : 0;
+  EXPECT_LE(found, 1);  // of 30
+}
+
+TEST(FindDisparity, no_pixel_outside_is_read) {
+  const TestPair pair = make_pair(60, 40, {14, 0, 0}, Waves(5, 25, 2), 1, 2);
+  for (int u = -1; u <= 60; ++u) {
+    for (int v = -1; v <= 40; ++v) (void)find_disparity(pair.left, pair.right, u, v, 0, 100);
+  }
 }
 
 }  // namespace

@@ -191,7 +191,22 @@ std::optional<StereoMatch> find_in_image(const Rig& rig, const StereoSide& left,
   const DisparityResult result = measure_disparity(left.image, right, u, v, *found, 1);
   if (result.status != DisparityStatus::measured || result.measured.correlation < options.min_correlation)
     return std::nullopt;
-  return StereoMatch{-1, std::numeric_limits<float>::infinity(), result.measured.disparity, result.measured.sigma_px, true};
+  return StereoMatch{-1, std::numeric_limits<float>::infinity(), result.measured.disparity,
+                     result.measured.sigma_px, true};
+}
+
+/// For each left feature its right one by the descriptors.
+std::vector<std::optional<Match>> find_features(const Rig& rig, const StereoSide& left,
+                                                const StereoSide& right, const StereoMatchOptions& options,
+                                                const Executor& executor) {
+  const std::size_t lefts = left.features.keypoints.size(), rights = right.features.keypoints.size();
+  if (rights == 0) return std::vector<std::optional<Match>>(lefts);
+  require_comparable(left.features.descriptors, right.features.descriptors);
+  const StereoSearch search(rig, left, right, options);
+  const MatchOptions limits{options.max_distance, options.max_ratio, true};
+  return match_candidates(
+      lefts, rights, left.features.descriptors.norm(),
+      [&](std::size_t l, Candidates& candidates) { search.find(l, candidates); }, limits, executor);
 }
 
 }  // namespace
@@ -213,13 +228,8 @@ std::vector<std::optional<StereoMatch>> match_stereo(const Rig& rig, const Stere
   require(left.image.width() == right.image.width() && left.image.height() == right.image.height(),
           "both images have one size");
   std::vector<std::optional<StereoMatch>> matches(left.features.keypoints.size());
-  if (left.features.keypoints.empty() || right.features.keypoints.empty()) return matches;
-  require_comparable(left.features.descriptors, right.features.descriptors);
-  const StereoSearch search(rig, left, right, options);
-  const MatchOptions limits{options.max_distance, options.max_ratio, true};
-  const auto found = match_candidates(
-      matches.size(), right.features.keypoints.size(), left.features.descriptors.norm(),
-      [&](std::size_t l, Candidates& candidates) { search.find(l, candidates); }, limits, executor);
+  if (matches.empty()) return matches;
+  const auto found = find_features(rig, left, right, options, executor);
   constexpr std::size_t kGrain = 32;
   executor.for_each_chunk(found.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {

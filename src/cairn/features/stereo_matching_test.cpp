@@ -143,6 +143,23 @@ TEST(MatchStereo, measures_the_disparity_on_the_images) {
   EXPECT_GT(measured, 190);
 }
 
+TEST(MatchStereo, features_without_a_partner_are_found_in_the_image) {
+  Plane plane(100);
+  plane.right = {};
+  plane.right.descriptors = Descriptors(plane.left.descriptors.norm(), plane.left.descriptors.bytes(), 0);
+  StereoMatchOptions options;
+  options.search_images = true;
+  std::size_t found = 0;
+  for (const auto& match :
+       match_stereo(kRig, {plane.left, plane.images.left}, {plane.right, plane.images.right}, options)) {
+    if (!match) continue;
+    ++found;
+    EXPECT_EQ(match->right, -1);
+    EXPECT_NEAR(match->disparity, Plane::kDisparity, 0.3);
+  }
+  EXPECT_GE(2 * found, plane.left.keypoints.size());
+}
+
 TEST(MatchStereo, the_images_reveal_a_wrong_match) {
   Plane plane(1);
   plane.right.keypoints[0].u -= 6;  // a place that looks different

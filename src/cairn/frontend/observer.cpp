@@ -69,8 +69,8 @@ void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
                   depth.jump_sigmas);
   check_parameter(stereo.min_disparity_sigmas >= 0, "stereo.min_disparity_sigmas",
                   "standard deviations from 0", stereo.min_disparity_sigmas);
-  check_parameter(std::abs(stereo.min_correlation) <= 1, "stereo.min_correlation", "a correlation from -1 to 1",
-                  stereo.min_correlation);
+  check_parameter(std::abs(stereo.min_correlation) <= 1, "stereo.min_correlation",
+                  "a correlation from -1 to 1", stereo.min_correlation);
   check_parameter(stereo.sigma_floor_px >= 0, "stereo.sigma_floor_px", "pixels from 0",
                   stereo.sigma_floor_px);
 }

@@ -12,13 +12,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
-
-/// Whether what follows the first `body` bytes of the file is their seal.
-bool is_sealed(std::string_view file, std::size_t body) {
-  BlockSeal seal;
-  seal.add(file.substr(0, body));
-  return std::move(seal).finish() == file.substr(body);
-}
+constexpr std::size_t kBlocksAtOnce = 64;
 
 }  // namespace
 
@@ -93,36 +87,69 @@ std::uint32_t stored_checksum(std::string_view file) {
 }
 
 BinaryReader::BinaryReader(const std::filesystem::path& path, const BinaryKind& kind)
-    : path_(path), contents_(read_file(path)) {
-  const std::size_t least = kind.magic.size() + sizeof(kind.version) + kChecksumBytes;
-  if (contents_.size() < least)
-    fail(fmt::format("at least {} bytes", least), fmt::format("{}", contents_.size()));
-  end_ = contents_.size() - kChecksumBytes;  // until the seal was looked at
-  if (!contents_.starts_with(kind.magic))
+    : path_(path), file_(path) {
+  check_beginning(kind);
+  read_seal();
+  file_.seek(0);
+  (void)get_bytes(kind.magic.size() + sizeof(kind.version));
+}
+
+/// Before any checksum: of a file of another kind or version nothing more is to be said.
+void BinaryReader::check_beginning(const BinaryKind& kind) {
+  const std::size_t bytes = kind.magic.size() + sizeof(kind.version), least = bytes + kChecksumBytes;
+  if (file_.size() < least) fail(fmt::format("at least {} bytes", least), fmt::format("{}", file_.size()));
+  std::string begin(bytes, '\0');
+  read_bytes(begin.data(), bytes);
+  if (!begin.starts_with(kind.magic))
     fail(fmt::format("a file that begins with {}", kind.magic), "another beginning");
-  next_ = kind.magic.size();
-  if (const auto version = get<std::uint32_t>(); version != kind.version)
+  std::uint32_t version = 0;
+  std::memcpy(&version, begin.data() + kind.magic.size(), sizeof version);
+  if (version != kind.version)
     throw InputError({path_.string(), 0, fmt::format("version {} of the format", kind.version),
                       fmt::format("version {}", version), std::string(kVersionRemedy)});
-  const auto body = sealed_bytes(contents_.size());
-  if (!body || !is_sealed(std::string_view(contents_), *body))
-    fail("contents that fit their CRC-32", "others: the file is damaged or cut short");
+}
+
+void BinaryReader::read_seal() {
+  const auto body = sealed_bytes(file_.size());
+  if (!body) fail_damaged();
   end_ = *body;
+  seal_.resize(file_.size() - end_);
+  file_.seek(end_);
+  read_bytes(seal_.data(), seal_.size());
+  if (crc32(std::string_view(seal_).substr(0, seal_.size() - kChecksumBytes)) != stored_checksum(seal_))
+    fail_damaged();
 }
 
-std::size_t BinaryReader::left() const {
-  return end_ - next_;
+void BinaryReader::read_bytes(char* bytes, std::size_t count) {
+  if (file_.read(bytes, count) != count) fail_damaged();
 }
 
-const char* BinaryReader::get_bytes(std::size_t count) {
+void BinaryReader::check_more(std::size_t count) {
   if (count > left()) fail(fmt::format("{} bytes more", count), fmt::format("{}", left()));
-  const char* bytes = contents_.data() + next_;
-  next_ += count;
-  return bytes;
+  checked_.erase(0, next_);
+  next_ = 0;
+  while (checked_.size() < count) {
+    const std::size_t known = checked_.size();
+    const auto more =
+        static_cast<std::size_t>(std::min<std::uint64_t>(end_ - read_, kBlocksAtOnce * kBlockBytes));
+    checked_.resize(known + more);
+    read_bytes(checked_.data() + known, more);
+    check_blocks(std::string_view(checked_).substr(known), read_ / kBlockBytes);
+    read_ += more;
+  }
+}
+
+void BinaryReader::check_blocks(std::string_view bytes, std::uint64_t first_block) const {
+  for (std::size_t begin = 0; begin < bytes.size(); begin += kBlockBytes) {
+    std::uint32_t expected = 0;
+    const std::uint64_t block = first_block + begin / kBlockBytes;
+    std::memcpy(&expected, seal_.data() + block * kChecksumBytes, kChecksumBytes);
+    if (crc32(bytes.substr(begin, kBlockBytes)) != expected) fail_damaged();
+  }
 }
 
 void BinaryReader::expect_checksum(std::optional<std::uint32_t> checksum) const {
-  if (checksum != stored_checksum(contents_)) fail("the file that map.json names, by its CRC-32", "another");
+  if (checksum != stored_checksum(seal_)) fail("the file that map.json names, by its CRC-32", "another");
 }
 
 void BinaryReader::expect_bytes(std::uint64_t count, std::uint64_t bytes, std::uint64_t more_count,
@@ -134,6 +161,10 @@ void BinaryReader::expect_bytes(std::uint64_t count, std::uint64_t bytes, std::u
     fail(fmt::format("{} records of {} bytes{}", count, bytes,
                      more_count == 0 ? "" : fmt::format(" and {} of {}", more_count, more_bytes)),
          fmt::format("{} bytes", room));
+}
+
+void BinaryReader::fail_damaged() const {
+  fail("contents that fit their CRC-32", "others: the file is damaged or cut short");
 }
 
 void BinaryReader::fail(std::string expected, std::string found) const {

@@ -94,8 +94,9 @@ class BinaryFileWriter {
 /// The checksum that a sealed file ends with.
 [[nodiscard]] std::uint32_t stored_checksum(std::string_view file);
 
-/// Reads what BinaryWriter made, in the same order. Magic, version and checksums are checked before anything
-/// is handed out. InputError names the file.
+/// Reads what BinaryWriter made, in the same order, with memory for some blocks and the seal only. Magic,
+/// version and the seal are checked first, and each block before anything of it is handed out. InputError
+/// names the file.
 class BinaryReader {
  public:
   BinaryReader(const std::filesystem::path& path, const BinaryKind& kind);
@@ -107,8 +108,12 @@ class BinaryReader {
     std::memcpy(&value, get_bytes(sizeof(Value)), sizeof(Value));
     return value;
   }
-  /// Valid as long as the reader.
-  [[nodiscard]] const char* get_bytes(std::size_t count);
+  /// Valid until the next call.
+  [[nodiscard]] const char* get_bytes(std::size_t count) {
+    if (count > checked_.size() - next_) check_more(count);
+    next_ += count;
+    return checked_.data() + next_ - count;
+  }
   /// InputError unless what is left are `count` records of `bytes` bytes (at least 1, at most 2^33), then
   /// `more_count` of `more_bytes`: ask before making room for them.
   void expect_bytes(std::uint64_t count, std::uint64_t bytes, std::uint64_t more_count = 0,
@@ -118,12 +123,21 @@ class BinaryReader {
   [[noreturn]] void fail(std::string expected, std::string found) const;
 
  private:
-  [[nodiscard]] std::size_t left() const;
+  void check_beginning(const BinaryKind& kind);
+  void read_seal();
+  /// Makes `count` bytes ready to be handed out.
+  void check_more(std::size_t count);
+  void check_blocks(std::string_view bytes, std::uint64_t first_block) const;
+  [[noreturn]] void fail_damaged() const;
+  [[nodiscard]] std::uint64_t left() const { return end_ - read_ + checked_.size() - next_; }
+  void read_bytes(char* bytes, std::size_t count);
 
   std::filesystem::path path_;
-  std::string contents_;
-  std::size_t next_ = 0;
-  std::size_t end_ = 0;  // of what is before the seal
+  FileReader file_;
+  std::string seal_;
+  std::string checked_;               // bytes of blocks that were found good; before next_: handed out
+  std::size_t next_ = 0;              // in checked_
+  std::uint64_t read_ = 0, end_ = 0;  // bytes of the file until the end of checked_, and until the seal
 };
 
 }  // namespace cairn

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/map/indicators.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,6 +69,12 @@ LandmarkIndicators indicators_of(const Rig& rig, const Eigen::Vector3d& point_in
           spread_of(depths),
           spread_of(angles),
           max_ray_angle_deg(point_in_world, views)};
+}
+
+double largest_std(const Eigen::Matrix3d& covariance) {
+  if (!covariance.allFinite()) return std::numeric_limits<double>::infinity();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff()));
 }
 
 }  // namespace cairn

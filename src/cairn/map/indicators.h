@@ -35,4 +35,8 @@ struct LandmarkIndicators {
 [[nodiscard]] LandmarkIndicators indicators_of(const Rig& rig, const Eigen::Vector3d& point_in_world,
                                                std::span<const LandmarkView> views);
 
+/// The standard deviation of a point along the direction in which it is least certain, metres: the root of
+/// the largest eigenvalue of its covariance. Infinite where that is not finite.
+[[nodiscard]] double largest_std(const Eigen::Matrix3d& covariance);
+
 }  // namespace cairn

@@ -51,5 +51,14 @@ TEST(Indicators, a_landmark_behind_a_camera_is_infinitely_wrong) {
   EXPECT_THROW((void)indicators_of(kRig, {0, 0, 1}, {}), PreconditionError);
 }
 
+TEST(Indicators, the_largest_std_is_along_the_worst_direction) {
+  const Eigen::Matrix3d turn = rotation_exp({0.3, -0.7, 1.1}).toRotationMatrix();
+  const Eigen::Matrix3d covariance = turn * Eigen::Vector3d(0.01, 0.25, 0.04).asDiagonal() * turn.transpose();
+  EXPECT_NEAR(largest_std(covariance), 0.5, 1e-12);
+  EXPECT_EQ(largest_std(Eigen::Matrix3d::Zero()), 0);
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(largest_std(Eigen::Vector3d(1, infinite, 1).asDiagonal()), infinite);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -7,6 +7,7 @@
 
 #include "cairn/core/checksum.h"
 #include "cairn/map/binary_file.h"
+#include "cairn/map/map_figures.h"
 #include "cairn/map/map_file.h"
 #include "cairn/map/test_map.h"
 
@@ -96,6 +97,7 @@ void expect_refused(const std::vector<BadMap>& cases) {
     make(folder.path() / "map");
     EXPECT_NE(message_for(folder.path() / "map").find(says), std::string::npos)
         << what << ": " << message_for(folder.path() / "map");
+    EXPECT_THROW((void)read_map_figures(folder.path() / "map"), InputError) << what;
   }
 }
 

@@ -84,8 +84,8 @@ class TermExpansion {
   Eigen::Vector3d error_, weights_;  // e and the diagonal of W
 };
 
-/// Whether an information matrix of a point, by its trace and determinant, determines it: not where its smallest
-/// eigenvalue is about a billionth of its largest, which is a parallax of 3e-5 radians.
+/// Whether an information matrix of a point, by its trace and determinant, determines it: not where its
+/// smallest eigenvalue is about a billionth of its largest, which is a parallax of 3e-5 radians.
 [[nodiscard]] inline bool determines_point(double trace, double determinant) {
   constexpr double kSmallestShare = 1e-9;
   const double mean = trace / 3.0;

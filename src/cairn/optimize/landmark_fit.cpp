@@ -22,12 +22,16 @@ struct LandmarkState {
 class Symmetric {
  public:
   explicit Symmetric(const double* a)
-      : trace_(a[0] + a[3] + a[5]),
+      : first_(a[0]),
+        trace_(a[0] + a[3] + a[5]),
         cofactors_{a[3] * a[5] - a[4] * a[4], a[2] * a[4] - a[1] * a[5], a[1] * a[4] - a[2] * a[3],
                    a[0] * a[5] - a[2] * a[2], a[1] * a[2] - a[0] * a[4], a[0] * a[3] - a[1] * a[1]},
         determinant_(a[0] * cofactors_[0] + a[1] * cofactors_[1] + a[2] * cofactors_[2]) {}
 
-  [[nodiscard]] bool determines_point() const { return cairn::determines_point(trace_, determinant_); }
+  /// Positive definite by its leading minors, and not nearly singular.
+  [[nodiscard]] bool determines_point() const {
+    return first_ > 0 && cofactors_[5] > 0 && cairn::determines_point(trace_, determinant_);
+  }
   [[nodiscard]] Eigen::Vector3d solve(const double* right) const {
     const double* c = cofactors_;
     const double share = 1.0 / determinant_, x = share * right[0], y = share * right[1], z = share * right[2];
@@ -39,7 +43,7 @@ class Symmetric {
   }
 
  private:
-  double trace_, cofactors_[6], determinant_;
+  double first_, trace_, cofactors_[6], determinant_;
 };
 
 /// One minimisation over the sightings that are packed.
@@ -141,11 +145,13 @@ class Descent {
     const double* gradient = state().sums.gradient;
     const double squared_deviations =
         -(step[0] * gradient[0] + step[1] * gradient[1] + step[2] * gradient[2]);
-    const bool last = squared_deviations < kRounding * kRounding ||
-                      (squared_deviations < kShort * kShort && next_length(step.norm()) < options_.converged_step);
+    const bool last =
+        squared_deviations < kRounding * kRounding ||
+        (squared_deviations < kShort * kShort && next_length(step.norm()) < options_.converged_step);
     if (!last) return false;
     states_[current_].point += step;
-    states_[current_].sums.squared_error -= squared_deviations;
+    double& squared_error = states_[current_].sums.squared_error;
+    squared_error = std::max(0.0, squared_error - squared_deviations);
     return true;
   }
 
@@ -218,6 +224,7 @@ class LandmarkSolver::Work {
       if (packed_.count() >= options_.min_observations) continue;
       fit.status = LandmarkFitStatus::too_few;
       fit.covariance.setZero();
+      fit.squared_error_sum = 0;
       return;
     }
   }
@@ -254,7 +261,7 @@ class LandmarkSolver::Work {
       fit.redundancy += seen.has_disparity() ? 3 : 2;
       squared_px += errors_.of_pixels[static_cast<std::size_t>(slot)] * seen.sigma_px * seen.sigma_px;
     }
-    if (packed_.count() > 0) fit.rms_px = std::sqrt(squared_px / packed_.count());
+    if (fit.status != LandmarkFitStatus::too_few) fit.rms_px = std::sqrt(squared_px / packed_.count());
   }
 
   Rig rig_;

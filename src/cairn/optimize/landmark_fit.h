@@ -14,7 +14,8 @@ namespace cairn {
 struct LandmarkFitOptions {
   int min_observations = 3;  ///< fewer make no landmark, because nothing would show that one of them is wrong
   double max_error = 4;      ///< standard deviations, root of squared_error: 1e-3 of chi-square(3) is above
-  int max_iterations = 20;   ///< steps tried for one solution; 2 or 3 are usual
+  int max_iterations =
+      50;  ///< steps tried for one solution; 2 or 3 are usual, and many where depth is hardly known
   double converged_step = 1e-8;  ///< metres: done when the next step would be shorter
 
   /// PreconditionError for a value out of range.
@@ -36,9 +37,9 @@ struct LandmarkFit {
   /// Of the point in the world, square metres, from the observations' sigmas alone: cameras are exact, and it
   /// is not scaled by the residuals. Zero unless status is ok.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  double squared_error_sum = 0;  ///< over the kept observations, in variances
+  double squared_error_sum = 0;  ///< over the kept observations, in variances; 0 where they are too few
   int redundancy = 0;            ///< numbers measured by the kept observations, less 3
-  double rms_px = 0;             ///< of the distance in (u, v) over the kept observations
+  double rms_px = 0;             ///< of the distance in (u, v) over the kept ones; 0 where they are too few
   std::vector<char> kept;        ///< one for each sighting, 1: used
   int iterations = 0;            ///< steps tried for the last solution
 };
@@ -47,12 +48,13 @@ struct LandmarkFit {
 ///
 ///     sum_i |S_i (pi(T_i X) - z_i)|^2
 ///
-/// over the sightings z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i are
-/// the inverse standard deviations. While a sighting's error at the solution is above max_error, the worst one
-/// is dropped, and the solution is sought again from the initial value. That is a sighting back-projected by
-/// its disparity, or two intersected; once sightings are to be dropped it is the one of these with the least
-/// median error (Rousseeuw 1984). Each solution begins with equations that are linear in X (Hartley and Sturm
-/// 1997) and goes on with Gauss-Newton steps, damped where they do not lower the cost (Marquardt 1963).
+/// over the sightings z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i
+/// are the inverse standard deviations. While a sighting's error at the solution is above max_error, the
+/// worst one is dropped, and the solution is sought again from the initial value. That is a sighting
+/// back-projected by its disparity, or two intersected; once sightings are to be dropped it is the one of
+/// these with the least median error (Rousseeuw 1984). Each solution begins with equations that are linear in
+/// X (Hartley and Sturm 1997) and goes on with Gauss-Newton steps, damped where they do not lower the cost
+/// (Marquardt 1963).
 ///
 /// Deterministic: the same bits on all instruction sets. Not to be used by two threads at a time; the second
 /// has a solver of its own. Apart from `fit.kept`, nothing is allocated once the longest track was seen.
@@ -65,8 +67,8 @@ class LandmarkSolver {
   LandmarkSolver(LandmarkSolver&&) noexcept;
   LandmarkSolver& operator=(LandmarkSolver&&) noexcept;
 
-  /// Fills `fit`, whose memory is used again. PreconditionError for a camera out of range, pixels that are not
-  /// finite, sigmas not above 0. A disparity that is not above 0 is a measurement like others.
+  /// Fills `fit`, whose memory is used again. PreconditionError for a camera out of range, pixels that are
+  /// not finite, sigmas not above 0. A disparity that is not above 0 is a measurement like others.
   void fit(std::span<const LandmarkSighting> sightings, LandmarkFit& fit);
 
  private:

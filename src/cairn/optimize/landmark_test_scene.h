@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "cairn/core/random.h"
@@ -17,8 +17,8 @@ struct LandmarkSceneOptions {
   double farthest = 30;    ///< to here
   double noise_px = 0.5;   ///< of u, v and d, as stated to the solver
   double disparity_share = 1;
-  double outlier_share = 0;                                ///< of the sightings
-  double outlier_px = 30;                                  ///< they are one to three times this aside
+  double outlier_share = 0;                                  ///< of the sightings
+  double outlier_px = 30;                                    ///< they are one to three times this aside
   Eigen::Vector3d place_in_world = Eigen::Vector3d::Zero();  ///< where the drive begins, metres
 };
 
@@ -39,8 +39,9 @@ class LandmarkSceneMaker {
   LandmarkScene make() {
     const Eigen::Quaterniond street = rotation_exp({0.3, -0.8, 1.1});
     for (int i = 0; i < kCameras; ++i) {
-      const Rigid3 world_from_camera{street * rotation_exp(normal(0.02)),
-                                     options_.place_in_world + street * (Eigen::Vector3d(0, 0, i) + normal(0.05))};
+      const Rigid3 world_from_camera{
+          street * rotation_exp(normal(0.02)),
+          options_.place_in_world + street * (Eigen::Vector3d(0, 0, i) + normal(0.05))};
       scene_.cameras.push_back(WorldFromCamera(world_from_camera).inverse());
     }
     while (static_cast<int>(scene_.tracks.size()) < options_.landmarks) add_landmark();
@@ -59,7 +60,8 @@ class LandmarkSceneMaker {
   void add_landmark() {
     const auto span = static_cast<std::uint32_t>(options_.longest_track - options_.shortest_track + 1);
     const int track = options_.shortest_track + static_cast<int>(random_.index(span));
-    const int last = track - 1 + static_cast<int>(random_.index(static_cast<std::uint32_t>(kCameras - track + 1)));
+    const int last =
+        track - 1 + static_cast<int>(random_.index(static_cast<std::uint32_t>(kCameras - track + 1)));
     const Eigen::Vector3d in_last =
         scene_.rig.point_at(random_.uniform(0, kWidth - 1), random_.uniform(0, kHeight - 1),
                             random_.uniform(options_.nearest, options_.farthest));

@@ -10,16 +10,21 @@
 namespace cairn {
 
 /// The plasma colour map (van der Walt and Smith 2015) up to 85 %: its yellow end is lost on white.
-std::string error_color(double share) {
+Rgb8 error_rgb(double share) {
   constexpr std::array<std::array<double, 3>, 6> kStops = {
       {{13, 8, 135}, {91, 1, 165}, {154, 23, 155}, {203, 70, 121}, {235, 120, 82}, {251, 178, 47}}};
   const double position = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(position), kStops.size() - 2);
   const double part = position - static_cast<double>(stop);
   const auto channel = [&](std::size_t c) {
-    return static_cast<int>(std::lround((1 - part) * kStops[stop][c] + part * kStops[stop + 1][c]));
+    return static_cast<std::uint8_t>(std::lround((1 - part) * kStops[stop][c] + part * kStops[stop + 1][c]));
   };
-  return fmt::format("#{:02x}{:02x}{:02x}", channel(0), channel(1), channel(2));
+  return {channel(0), channel(1), channel(2)};
+}
+
+std::string error_color(double share) {
+  const Rgb8 color = error_rgb(share);
+  return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
 }
 
 /// Okabe and Ito 2008, "Color universal design", without black and yellow.

@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <string>
 
+#include "cairn/image/image.h"
+
 namespace cairn {
 
 inline const std::string kInk = "#1e293b", kSoftInk = "#64748b", kGrid = "#e9edf2", kFrame = "#cbd5e1",
                          kReference = "#b6c0cd";
 
 /// For a value as a share of the largest, 0 to 1: dark blue over red to orange.
+[[nodiscard]] Rgb8 error_rgb(double share);
+/// The same, as SVG has it.
 [[nodiscard]] std::string error_color(double share);
 /// Of one of several lines in a picture; told apart by the colour-blind, too. They repeat after the seventh.
 [[nodiscard]] std::string line_color(std::size_t line);

@@ -249,7 +249,7 @@ TEST(GivenPosesData, poses_at_the_images_stamps_stay_as_they_are) {
   }
 }
 
-/// The images' depth of 1.3 cm at 100 Hz: neighbouring truth, next to the nearest one.
+/// Between the two true poses about an image, no further from either than they are apart.
 TEST(GivenPosesData, truth_at_a_hundred_hertz_stays_near_the_nearest) {
   const fs::path folder = fs::path(CAIRN_DATA_DIR) / "rgbd/fr1_desk_excerpt";
   if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder;

@@ -131,7 +131,7 @@ SimulatedStereoFrame SimulatedStreet::render(int frame) const {
   ImageSensor sensor;
   sensor.seed = options_.seed;
   sensor.frame = 2 * static_cast<std::uint64_t>(frame);  // the right camera has streams of its own
-  if (options_.noise == StereoNoise::camera) {
+  if (options_.noise == StreetNoise::camera) {
     sensor.deviation = options_.image_deviation;
     const auto share = static_cast<float>(kTurn * frame / size());
     sensor.gain = Color::Constant(1 + 0.06F * std::sin(3 * share));

@@ -18,7 +18,7 @@ namespace cairn {
 [[nodiscard]] Camera simulated_stereo_camera();
 
 /// camera: noisy images of varying gain. none: exact.
-enum class StereoNoise { camera, none };
+enum class StreetNoise { camera, none };
 
 struct SimulateStreetOptions {
   int frames_count = 200;
@@ -27,8 +27,8 @@ struct SimulateStreetOptions {
   int loops = 0;        ///< times around the block; 0: as many as keep a round below 400 m
   Camera camera = simulated_stereo_camera();  ///< pinhole; both cameras
   double baseline = 0.537;                    ///< metres
-  StereoNoise noise = StereoNoise::camera;
-  float image_deviation = 2;  ///< of the image noise, grey levels; none with StereoNoise::none
+  StreetNoise noise = StreetNoise::camera;
+  float image_deviation = 2;  ///< of the image noise, grey levels; none with StreetNoise::none
   std::uint64_t seed = 1;     ///< of the street, the textures and all noise
 
   /// InputError, naming the option of the command line, for what no car could have.

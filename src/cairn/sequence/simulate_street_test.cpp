@@ -8,7 +8,7 @@
 namespace cairn {
 namespace {
 
-SimulateStreetOptions small_street(StereoNoise noise) {
+SimulateStreetOptions small_street(StreetNoise noise) {
   SimulateStreetOptions options;
   options.camera.width = 248;
   options.camera.height = 75;
@@ -24,7 +24,7 @@ TEST(simulated_street, is_the_same_at_any_number_of_threads) {
   std::vector<SimulatedStereoFrame> reference;
   for (const int threads : {1, 2, 4}) {
     const Executor executor(threads);
-    const SimulatedStreet street(small_street(StereoNoise::camera), executor);
+    const SimulatedStreet street(small_street(StreetNoise::camera), executor);
     const auto frames = executor.map<SimulatedStereoFrame>(
         3, [&](std::size_t i) { return street.render(static_cast<int>(i) * 40); });
     if (threads == 1) reference = frames;
@@ -36,7 +36,7 @@ TEST(simulated_street, is_the_same_at_any_number_of_threads) {
 }
 
 TEST(simulated_street, begins_at_the_origin_and_ends_there) {
-  const SimulatedStreet street(small_street(StereoNoise::none));
+  const SimulatedStreet street(small_street(StreetNoise::none));
   const Trajectory truth = street.truth();
   EXPECT_LT(motion_norm(truth.front().world_from_camera), 1e-12);
   EXPECT_LT(truth.back().world_from_camera.translation.norm(), 1.5);  // a frame's way
@@ -52,7 +52,7 @@ TEST(simulated_street, begins_at_the_origin_and_ends_there) {
 }
 
 TEST(simulated_street, right_image_is_the_left_one_moved_by_the_disparity) {
-  const SimulatedStreet street(small_street(StereoNoise::none));
+  const SimulatedStreet street(small_street(StreetNoise::none));
   for (const int frame : {0, 60, 130}) {
     const SimulatedStereoFrame pair = street.render(frame);
     int compared = 0, alike = 0;
@@ -73,7 +73,7 @@ TEST(simulated_street, right_image_is_the_left_one_moved_by_the_disparity) {
 }
 
 TEST(simulated_street, leaves_the_road_free) {
-  const SimulatedStreet street(small_street(StereoNoise::none));
+  const SimulatedStreet street(small_street(StreetNoise::none));
   for (int i = 0; i < street.size(); i += 11) {
     const DepthImage depth = street.render(i).depth_true;
     for (std::size_t k = 0; k < depth.size(); ++k)
@@ -83,7 +83,7 @@ TEST(simulated_street, leaves_the_road_free) {
 }
 
 TEST(simulated_street, few_frames_make_a_part_of_a_round) {
-  SimulateStreetOptions options = small_street(StereoNoise::none);
+  SimulateStreetOptions options = small_street(StreetNoise::none);
   options.frames_count = 10;
   const Trajectory truth = SimulatedStreet(options).truth();
   const double step = truth[1].world_from_camera.translation.norm();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "cairn/sequence/given_poses.h"
@@ -35,7 +36,7 @@ inline Rigid3 forward_camera_on_flu() {
 inline Eigen::Vector3d earth_centred(double latitude_deg, double longitude_deg, double height_m) {
   constexpr double kEquator = 6378137.0, kFlattening = 1 / 298.257223563;
   constexpr double kEccentricity2 = kFlattening * (2 - kFlattening);
-  const double lat = latitude_deg * M_PI / 180, lon = longitude_deg * M_PI / 180;
+  const double lat = latitude_deg * std::numbers::pi / 180, lon = longitude_deg * std::numbers::pi / 180;
   const double normal = kEquator / std::sqrt(1 - kEccentricity2 * std::sin(lat) * std::sin(lat));
   return {(normal + height_m) * std::cos(lat) * std::cos(lon),
           (normal + height_m) * std::cos(lat) * std::sin(lon),
@@ -44,7 +45,7 @@ inline Eigen::Vector3d earth_centred(double latitude_deg, double longitude_deg, 
 
 /// Columns: east, north, up at a place, in earth-centred axes.
 inline Eigen::Matrix3d earth_from_enu(double latitude_deg, double longitude_deg) {
-  const double lat = latitude_deg * M_PI / 180, lon = longitude_deg * M_PI / 180;
+  const double lat = latitude_deg * std::numbers::pi / 180, lon = longitude_deg * std::numbers::pi / 180;
   Eigen::Matrix3d m;
   m.col(0) = Eigen::Vector3d(-std::sin(lon), std::cos(lon), 0);
   m.col(1) = Eigen::Vector3d(-std::sin(lat) * std::cos(lon), -std::sin(lat) * std::sin(lon), std::cos(lat));

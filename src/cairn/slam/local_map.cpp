@@ -46,15 +46,24 @@ std::vector<LandmarkId> landmarks_of(const Map& map, std::span<const KeyframeId>
   return landmarks;
 }
 
+std::vector<KeyframeId> neighbours_of(const Map& map, KeyframeId id, std::size_t count) {
+  constexpr int kMinShared = 15;
+  std::vector<KeyframeId> ids;
+  for (const SharedView& view : covisible_keyframes(map, id, kMinShared)) {
+    if (ids.size() == count) break;
+    ids.push_back(view.keyframe);
+  }
+  return ids;
+}
+
 std::vector<KeyframeId> local_keyframes(const Map& map, std::span<const LandmarkId> landmarks,
                                         std::size_t count, std::size_t neighbours) {
-  constexpr int kMinShared = 15;  // as many as make two keyframes neighbours (Mur-Artal et al. 2015)
   std::vector<KeyframeId> local;
   const std::vector<SharedView> views = keyframes_showing(map, landmarks);
   for (std::size_t i = 0; i < std::min(count, views.size()); ++i) {
     local.push_back(views[i].keyframe);
-    const auto around = covisible_keyframes(map, views[i].keyframe, kMinShared);
-    for (std::size_t n = 0; n < std::min(neighbours, around.size()); ++n) local.push_back(around[n].keyframe);
+    const auto around = neighbours_of(map, views[i].keyframe, neighbours);
+    local.insert(local.end(), around.begin(), around.end());
   }
   std::sort(local.begin(), local.end());
   local.erase(std::unique(local.begin(), local.end()), local.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,11 @@ struct SharedView {
 
 /// Keyframes that share at least `min_shared` landmarks with this one, most first; itself not.
 [[nodiscard]] std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared);
+
+/// The `count` nearest neighbours of a keyframe: those that share at least 15 landmarks with it (Mur-Artal et
+/// al. 2015), most first.
+[[nodiscard]] std::vector<KeyframeId> neighbours_of(
+    const Map& map, KeyframeId id, std::size_t count = std::numeric_limits<std::size_t>::max());
 
 /// Whether a landmark is worth looking for: several keyframes show it, or the one that does is among the last
 /// `trial_keyframes` + 1 of the map.

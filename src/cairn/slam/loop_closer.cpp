@@ -12,8 +12,6 @@
 namespace cairn {
 namespace {
 
-constexpr int kMinShared = 15;  // landmarks that make two keyframes neighbours
-
 struct Attempt {
   LoopHypothesis loop;
   bool verified = false;
@@ -71,9 +69,8 @@ LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map
     : options_(options), executor_(executor), map_(map), places_(places) {}
 
 std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
-  std::vector<KeyframeId> near = {keyframe};
-  for (const SharedView& view : covisible_keyframes(map_, keyframe, kMinShared))
-    near.push_back(view.keyframe);
+  std::vector<KeyframeId> near = neighbours_of(map_, keyframe);
+  near.push_back(keyframe);
   const auto contains = [](const std::vector<KeyframeId>& ids, KeyframeId id) {
     return std::find(ids.begin(), ids.end(), id) != ids.end();
   };

@@ -11,16 +11,6 @@ namespace cairn {
 namespace {
 
 constexpr double kMaxRatio = 0.8;  // Lowe 2004, sec. 7.1: along a line much looks alike
-constexpr int kMinShared = 15;     // landmarks that make two keyframes neighbours (Mur-Artal et al. 2015)
-
-std::vector<KeyframeId> neighbours_of(const Map& map, KeyframeId keyframe, std::size_t count) {
-  std::vector<KeyframeId> ids;
-  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
-    if (ids.size() == count) break;
-    ids.push_back(view.keyframe);
-  }
-  return ids;
-}
 
 /// The features of a keyframe that have neither depth nor landmark.
 struct OpenFeatures {
@@ -205,11 +195,11 @@ int erase_unconfirmed(Map& map) {
 
 std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options) {
   std::vector<KeyframeId> erased;
-  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
-    const bool is_first = !map[view.keyframe].parent.valid();
-    if (is_first || !is_redundant(map, view.keyframe, options.redundant_share)) continue;
-    map.erase(view.keyframe);
-    erased.push_back(view.keyframe);
+  for (const KeyframeId id : neighbours_of(map, keyframe)) {
+    const bool is_first = !map[id].parent.valid();
+    if (is_first || !is_redundant(map, id, options.redundant_share)) continue;
+    map.erase(id);
+    erased.push_back(id);
   }
   return erased;
 }

@@ -34,7 +34,9 @@ struct MappingOptions {
 /// SLAM programs have long read.
 struct SlamOptions {
   /// 1500 features: room for the views that show little.
-  ObserverOptions observer{.features = {.detector = "ORB", .descriptor = "ORB", .count = 1500}, .depth_noise = {}, .stereo_noise = {}};
+  ObserverOptions observer{.features = {.detector = "ORB", .descriptor = "ORB", .count = 1500},
+                           .depth_noise = {},
+                           .stereo_noise = {}};
   TrackingOptions tracking;
   MappingOptions mapping;
   double good_match_threshold = 10;  ///< a match may be this many times worse than the pair's best

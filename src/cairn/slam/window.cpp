@@ -60,12 +60,8 @@ void move_with_its_own(KeyframeId id, const Rigid3& world_from_camera, Map& map)
 }  // namespace
 
 Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options) {
-  constexpr int kMinShared = 15;
-  std::vector<KeyframeId> free = {keyframe};
-  for (const SharedView& view : covisible_keyframes(map, keyframe, kMinShared)) {
-    if (free.size() == static_cast<std::size_t>(options.window_keyframes)) break;
-    free.push_back(view.keyframe);
-  }
+  auto free = neighbours_of(map, keyframe, static_cast<std::size_t>(options.window_keyframes) - 1);
+  free.push_back(keyframe);
   std::sort(free.begin(), free.end());
   const auto landmarks = landmarks_of(map, free, options.trial_keyframes);
   std::vector<SharedView> around = keyframes_showing(map, landmarks);

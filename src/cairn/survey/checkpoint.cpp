@@ -71,14 +71,12 @@ void get(BinaryReader& reader, std::vector<Item>& items) {
 
 void put(const Track& track, ByteWriter& writer) {
   put(track.sightings, writer);
-  put(track.latest, writer);
   put(track.measured, writer);
   put_matrix(track.point_in_world, writer);
 }
 
 void get(BinaryReader& reader, Track& track) {
   get(reader, track.sightings);
-  get(reader, track.latest);
   get(reader, track.measured);
   get_matrix(reader, track.point_in_world);
 }
@@ -180,10 +178,10 @@ void put(const SurveyFrame& frame, ByteWriter& writer) {
   writer.put(frame.motion->translation_variance);
 }
 
-SurveyFrame get_frame(BinaryReader& reader, const ObserveAgain& observe) {
+SurveyFrame get_frame(BinaryReader& reader) {
   SurveyFrame frame;
   frame.id.value = reader.get<std::int32_t>();
-  const FrameId in_sequence{reader.get<std::int32_t>()};
+  frame.observed.frame.value = reader.get<std::int32_t>();
   get(reader, frame.kept);
   get(reader, frame.landmarks);
   frame.world_from_camera = WorldFromCamera(get_transform(reader));
@@ -194,7 +192,6 @@ SurveyFrame get_frame(BinaryReader& reader, const ObserveAgain& observe) {
     frame.motion->rotation_variance = reader.get<double>();
     frame.motion->translation_variance = reader.get<double>();
   }
-  observe(in_sequence, frame);
   return frame;
 }
 
@@ -209,8 +206,11 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
   state.counts.moved_squared_m = reader.get<double>();
   state.counts.turned_squared_rad = reader.get<double>();
-  const auto frames = reader.get<std::uint64_t>();
-  for (std::uint64_t i = 0; i < frames; ++i) state.frames.push_back(get_frame(reader, observe));
+  const auto count = reader.get<std::uint64_t>();
+  std::vector<SurveyFrame> frames;
+  for (std::uint64_t i = 0; i < count; ++i) frames.push_back(get_frame(reader));
+  observe(frames);
+  for (SurveyFrame& frame : frames) state.frames.push_back(std::move(frame));
   return state;
 }
 
@@ -246,8 +246,8 @@ std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder, s
   try {
     BinaryReader reader(folder / kName, kKind);
     if (reader.get<std::uint32_t>() != identity) return std::nullopt;
-    MapWriterState writer = MapWriterState::get(reader);
-    return Checkpoint{get_state(reader, observe), std::move(writer)};
+    const MapWriterState writer = MapWriterState::get(reader);
+    return Checkpoint{get_state(reader, observe), writer};
   } catch (const InputError&) {
     return std::nullopt;
   }

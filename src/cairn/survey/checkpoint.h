@@ -16,8 +16,9 @@ struct Checkpoint {
   MapWriterState writer;
 };
 
-/// Gives a frame again what was observed (those features that it kept) and its given pose.
-using ObserveAgain = std::function<void(FrameId in_sequence, SurveyFrame& frame)>;
+/// Gives frames, whose place in the sequence is observed.frame, again what was observed in them (those
+/// features that they kept) and their given poses.
+using ObserveAgain = std::function<void(std::vector<SurveyFrame>& frames)>;
 
 /// Writes the checkpoint beside the pieces of the map that it belongs to, in place of the one before.
 /// `identity` stands for input and options. Features are not stored: whoever goes on finds them again.

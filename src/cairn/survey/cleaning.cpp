@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/survey/cleaning.h"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
-
 namespace cairn {
 namespace {
 
@@ -13,12 +10,6 @@ bool holds(const SpreadLimits& limits, const Spread& spread) {
   };
   return (!limits.min || spread.min >= *limits.min) && is_at_most(spread.max, limits.max) &&
          is_at_most(spread.mean, limits.max_mean) && is_at_most(spread.std, limits.max_std);
-}
-
-/// Standard deviation along the worst direction.
-double largest_std(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues().maxCoeff());
 }
 
 }  // namespace
@@ -33,8 +24,7 @@ std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
                                         const Eigen::Matrix3d& covariance, const CleaningOptions& options) {
   // A comparison with NaN is false, so that each asks for what is good.
   if (!(indicators.frames >= options.min_frames)) return CleaningRule::frames;
-  if (!(covariance.allFinite() && largest_std(covariance) <= options.max_std_m))
-    return CleaningRule::position_std;
+  if (!(largest_std(covariance) <= options.max_std_m)) return CleaningRule::position_std;
   if (!(indicators.rms_px <= options.max_rms_px)) return CleaningRule::rms;
   if (!(indicators.max_ray_angle_deg >= options.min_ray_angle_deg)) return CleaningRule::ray_angle;
   if (!holds(options.depth, indicators.depth)) return CleaningRule::depth;

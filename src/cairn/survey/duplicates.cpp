@@ -136,6 +136,7 @@ std::int64_t merge_duplicates(const Rig& rig, const FrameBuffer& frames, const V
       index.remove(pending[i].point_in_world, i);
       pending[i] = std::move(*both);
       index.add(pending[i].point_in_world, i);
+      largest = std::max(largest, total_std(pending[i]));
       ++merged;
       is_new = false;
       break;

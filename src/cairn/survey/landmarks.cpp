@@ -64,13 +64,20 @@ void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track>
   }
 }
 
+/// The covariance of c + w x lever, with the errors (c, w) of a pose.
+Eigen::Matrix3d covariance_at(const PoseUncertainty& pose, const Eigen::Vector3d& lever) {
+  const Eigen::Matrix3d by_rotation = skew(-lever);
+  const Eigen::Matrix3d both = pose.position_rotation * by_rotation.transpose();
+  return pose.position + by_rotation * pose.rotation * by_rotation.transpose() + both + both.transpose();
+}
+
 Eigen::Matrix3d pose_covariance_of(const FrameBuffer& frames, const SurveyLandmark& landmark) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Sighting& sighting : landmark.sightings) {
     const GivenPose& given = frames[sighting.keyframe].given;
     if (!given.uncertainty) continue;
-    const Eigen::Matrix3d by_rotation = skew(given.world_from_camera.translation - landmark.point_in_world);
-    sum += given.uncertainty->position + by_rotation * given.uncertainty->rotation * by_rotation.transpose();
+    const Eigen::Vector3d lever = landmark.point_in_world - given.world_from_camera.translation;
+    sum += covariance_at(*given.uncertainty, lever);
   }
   return sum / static_cast<double>(landmark.sightings.size());
 }

@@ -55,8 +55,9 @@ struct AdjustedTracks {
 
 /// Sets what its covariance is made of beside the cofactor. What the errors of the given poses add is zero
 /// where none are given. GNSS/INS errors change slowly, so that the poses of one landmark err alike: the mean
-/// of what each pose alone would add, dX = dp + dr x (X - p), does not shrink with the number of frames. What
-/// changes from frame to frame is in the residuals, and so in the variance factor.
+/// of what each pose alone would add, dX = c + w x (X - p) with PoseUncertainty's (c, w), does not shrink
+/// with the number of frames. What changes from frame to frame is in the residuals, and so in the variance
+/// factor.
 void complete_covariance(const FrameBuffer& frames, const VariancePrior& prior, bool pose_errors,
                          SurveyLandmark& landmark);
 

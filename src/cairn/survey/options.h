@@ -16,7 +16,8 @@ struct TrackOptions {
   /// Frames on either side, whose poses and motions smooth a pose, see smoothed_pose; 0: poses stay as given.
   /// Less than the window, so that a track's poses are smooth before it is adjusted.
   int smooth_frames = 10;
-  int max_frames = 50;     ///< a track takes fewer: what moves along with the car would take all
+  /// Frames: a track spans fewer, and then begins anew. More would hardly make it surer, and hold the memory.
+  int max_frames = 50;
   double epipolar_px = 2;  ///< largest distance from the epipolar line, times the larger keypoint's scale
   double search_px = 4;  ///< around the predicted place, plus what the depth leaves open, at the lowest level
   double max_ratio = 0.9;  ///< nearest to second nearest descriptor within the window (Lowe 2004, sec. 7.1)

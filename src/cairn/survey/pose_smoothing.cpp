@@ -27,27 +27,38 @@ bool is_in(const FrameBuffer& frames, KeyframeId id) {
 
 /// The frames after (direction 1) or before (-1) `middle`, the nearest first, as far as motions were
 /// measured.
-void follow_motions(const FrameBuffer& frames, KeyframeId middle, int direction, int reach,
-                    std::vector<Neighbour>& neighbours) {
+std::vector<Neighbour> follow_motions(const FrameBuffer& frames, KeyframeId middle, int direction,
+                                      int reach) {
+  std::vector<Neighbour> neighbours;
   Neighbour next{middle, {}};
   for (int k = 1; k <= reach; ++k) {
     next.id = shifted(middle, direction * k);
-    if (!is_in(frames, next.id)) return;
+    if (!is_in(frames, next.id)) break;
     const auto& motion = frames[direction > 0 ? next.id : shifted(next.id, 1)].motion;
-    if (!motion) return;
+    if (!motion) break;
     const Rigid3 step = direction > 0 ? motion->previous_from_this.inverse() : motion->previous_from_this;
     next.neighbour_from_middle = step * next.neighbour_from_middle;
     next.rotation_variance += motion->rotation_variance;
     next.translation_variance += motion->translation_variance;
     neighbours.push_back(next);
   }
+  return neighbours;
 }
 
-std::vector<Neighbour> neighbours_of(const FrameBuffer& frames, KeyframeId middle, int reach) {
-  std::vector<Neighbour> neighbours;
-  follow_motions(frames, middle, 1, reach, neighbours);
-  follow_motions(frames, middle, -1, reach, neighbours);
-  return neighbours;
+/// What the given poses of one side's neighbours, of the variance `jitter` each, weigh where the motions have
+/// carried them. Those further away share the steps of the nearer: from the farthest inwards, information J
+/// passes a step of variance v as J / (1 + J v), as in the filter of a random walk (Kalman 1960).
+std::vector<double> weights_of(const std::vector<Neighbour>& side, double jitter, double Neighbour::*way) {
+  std::vector<double> weights(side.size(), 1 / jitter);
+  double information = 0;
+  for (std::size_t i = side.size(); i-- > 0;) {
+    const double step = side[i].*way - (i > 0 ? side[i - 1].*way : 0.0);
+    information += 1 / jitter;
+    const double passed = 1 / (1 + information * step);
+    for (std::size_t k = i; k < side.size(); ++k) weights[k] *= passed;
+    information *= passed;
+  }
+  return weights;
 }
 
 struct Jitter {
@@ -102,16 +113,20 @@ std::optional<VisualMotion> measure_motion(const Rig& rig, const FrameBuffer& fr
 WorldFromCamera smoothed_pose(const FrameBuffer& frames, KeyframeId id, int reach) {
   const WorldFromCamera& given = frames[id].given.world_from_camera;
   const Jitter jitter = measure_jitter(frames, id, reach);
+  const double rotation_jitter = jitter.rotation_variance + kTiny,
+               translation_jitter = jitter.translation_variance + kTiny;
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero(), translation = Eigen::Vector3d::Zero();
-  double rotation_weight = 1 / (jitter.rotation_variance + kTiny),
-         translation_weight = 1 / (jitter.translation_variance + kTiny);
-  for (const Neighbour& neighbour : neighbours_of(frames, id, reach)) {
-    const Rigid3 carried = frames[neighbour.id].given.world_from_camera * neighbour.neighbour_from_middle;
-    const double by_rotation = 1 / (jitter.rotation_variance + neighbour.rotation_variance + kTiny),
-                 by_translation = 1 / (jitter.translation_variance + neighbour.translation_variance + kTiny);
-    rotation += by_rotation * rotation_log(given.rotation.conjugate() * carried.rotation);
-    translation += by_translation * (carried.translation - given.translation);
-    rotation_weight += by_rotation, translation_weight += by_translation;
+  double rotation_weight = 1 / rotation_jitter, translation_weight = 1 / translation_jitter;
+  for (const int direction : {1, -1}) {
+    const auto side = follow_motions(frames, id, direction, reach);
+    const auto by_rotation = weights_of(side, rotation_jitter, &Neighbour::rotation_variance),
+               by_translation = weights_of(side, translation_jitter, &Neighbour::translation_variance);
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      const Rigid3 carried = frames[side[i].id].given.world_from_camera * side[i].neighbour_from_middle;
+      rotation += by_rotation[i] * rotation_log(given.rotation.conjugate() * carried.rotation);
+      translation += by_translation[i] * (carried.translation - given.translation);
+      rotation_weight += by_rotation[i], translation_weight += by_translation[i];
+    }
   }
   WorldFromCamera smoothed = given;
   smoothed.rotation = (given.rotation * rotation_exp(rotation / rotation_weight)).normalized();
@@ -124,7 +139,10 @@ std::vector<CameraFromWorld> cameras_around(const FrameBuffer& frames, KeyframeI
   const Jitter jitter = measure_jitter(frames, middle, reach);
   const SurveyFrame& from = frames[middle];
   const int whole = static_cast<int>(frames.size());
-  for (const Neighbour& neighbour : neighbours_of(frames, middle, whole)) {
+  std::vector<Neighbour> neighbours = follow_motions(frames, middle, 1, whole);
+  const auto before = follow_motions(frames, middle, -1, whole);
+  neighbours.insert(neighbours.end(), before.begin(), before.end());
+  for (const Neighbour& neighbour : neighbours) {
     const Rigid3 led = from.world_from_camera * neighbour.neighbour_from_middle.inverse();
     const Rigid3& given = frames[neighbour.id].given.world_from_camera;
     const double to_given_rotation =

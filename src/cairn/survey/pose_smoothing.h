@@ -24,8 +24,8 @@ namespace cairn {
 
 /// The pose of frame `id` from the given ones of at most `reach` frames on either side, as far as measured
 /// motions lead. With motions m_k and given poses P_k, the errors e_k = log((P_k-1^-1 P_k)^-1 m_k) have the
-/// variance 2 s^2 + v, where v is the motions' own and s the given poses', which follows; the neighbour at
-/// distance k then weighs 1 / (s^2 + k v), for rotation and translation each.
+/// variance 2 s^2 + v, where v is the motions' own and s the given poses', which follows; the mean is then
+/// the best of given poses with that variance that motions join, for rotation and translation each.
 [[nodiscard]] WorldFromCamera smoothed_pose(const FrameBuffer& frames, KeyframeId id, int reach);
 
 /// The cameras of all frames in the buffer for a landmark that was seen around frame `middle`, whose

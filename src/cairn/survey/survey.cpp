@@ -80,6 +80,7 @@ class Run {
     begin();
     follow();
     if (!result_.stopped) {
+      require_frames();
       surveyor_->finish(executor_);
       writer_->finish();
       MapWriter::discard_spools(folder_);
@@ -91,8 +92,8 @@ class Run {
  private:
   void begin() {
     const MapHeader header = header_of(input_, rig_, options_);
-    auto checkpoint = read_checkpoint(folder_, identity_,
-                                      [&](FrameId id, SurveyFrame& frame) { observe_again(id, frame); });
+    auto checkpoint =
+        read_checkpoint(folder_, identity_, [&](std::vector<SurveyFrame>& frames) { observe_again(frames); });
     writer_ = checkpoint ? std::make_unique<MapWriter>(folder_, header, checkpoint->writer)
                          : std::make_unique<MapWriter>(folder_, header);
     SurveyState state = checkpoint ? std::move(checkpoint->state) : SurveyState{};
@@ -100,13 +101,18 @@ class Run {
     surveyor_ = std::make_unique<Surveyor>(rig_, options_, std::move(state), *writer_);
   }
 
-  void observe_again(FrameId id, SurveyFrame& frame) const {
-    const auto index = static_cast<std::size_t>(id.value);
-    Arrival arrival = frontend_(index);
-    if (arrival.failure) std::rethrow_exception(arrival.failure);
-    scale_sigmas(options_.covariance.sigma_px, arrival.observed);
-    frame.observed = select(arrival.observed, frame.kept);
-    frame.given = *input_.poses.frames[index];
+  void observe_again(std::vector<SurveyFrame>& frames) const {
+    executor_.for_each(frames.size(), [&](std::size_t i) {
+      const auto index = static_cast<std::size_t>(frames[i].observed.frame.value);
+      Arrival arrival = frontend_(index);
+      if (arrival.failure) std::rethrow_exception(arrival.failure);
+      if (!frames[i].kept.empty() && frames[i].kept.back() >= arrival.observed.observations.size())
+        throw InputError({input_.sequence.frames[index].color.string(), 0, "the image of the earlier run",
+                          "another one", "Begin anew."});
+      scale_sigmas(options_.covariance.sigma_px, arrival.observed);
+      frames[i].observed = select(arrival.observed, frames[i].kept);
+      frames[i].given = *input_.poses.frames[index];
+    });
   }
 
   void follow() {
@@ -142,6 +148,14 @@ class Run {
     return !result_.stopped;
   }
 
+  void require_frames() const {
+    const SurveyCounts& counts = surveyor_->state().counts;
+    if (counts.frames > 0) return;
+    throw InputError({input_.sequence.folder.string(), 0, "a frame with a pose that can be read",
+                      fmt::format("{} that cannot be read", counts.unreadable),
+                      "Look at what was said of each of them."});
+  }
+
   void keep() {
     write_checkpoint(folder_, identity_, surveyor_->state(), writer_->save());
     since_checkpoint_ = Stopwatch();
@@ -159,10 +173,10 @@ class Run {
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;
-    return std::move(result_);
+    return result_;
   }
 
-  static constexpr double kCheckpointSeconds = 5;  // what a crash costs, beside finding features again
+  static constexpr double kCheckpointSeconds = 2;  // what a crash costs, beside finding features again
 
   const SurveyInput& input_;
   const SurveyOptions& options_;

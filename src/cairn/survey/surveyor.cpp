@@ -57,7 +57,7 @@ void Surveyor::add(const ObservedFrame& observed, const GivenPose& given, const 
   auto matches = find_tracks(frame, executor);
   keep_useful(frame, matches);
   frame.landmarks.resize(frame.observed.observations.size());
-  extend_tracks(frame, matches, options_.tracks, state_.tracks);
+  extend_tracks(frame, matches, state_.tracks);
   const KeyframeId id = frame.id;
   state_.frames.push_back(std::move(frame));
   ++state_.next_frame.value;
@@ -187,9 +187,7 @@ void Surveyor::write_frames(KeyframeId before) {
 /// The first frame that a track or a landmark which was not written has seen.
 KeyframeId Surveyor::first_open_frame() const {
   KeyframeId first = state_.next_frame;
-  for (const Track& track : state_.tracks) {
-    if (!track.sightings.empty()) first = std::min(first, track.sightings.front().keyframe);
-  }
+  for (const Track& track : state_.tracks) first = std::min(first, track.sightings.front().keyframe);
   for (const SurveyLandmark& landmark : state_.pending)
     first = std::min(first, landmark.sightings.front().keyframe);
   return first;

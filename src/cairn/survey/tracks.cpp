@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cairn/frontend/prediction.h"
 #include "cairn/geometry/epipolar.h"
@@ -25,17 +26,16 @@ double depth_play_px(const Rig& rig, const FrameBuffer& frames, const Track& tra
   return (rig.project(there) - rig.project(moved)).head<2>().norm();
 }
 
+/// Takes no sightings in `frame` any more.
+bool is_full(const Track& track, KeyframeId frame, const TrackOptions& options) {
+  return frame.value - track.sightings.front().keyframe.value + 1 >= options.max_frames;
+}
+
 struct TrackTargets {
   std::vector<std::int32_t> tracks;
   std::vector<PredictedPlace> places;
   std::vector<Appearance> appearances;
 };
-
-bool is_near_image(const Rig& rig, const PredictedPlace& place) {
-  // The principal point is near the middle, so that twice its distance from the border is the image's size.
-  return place.u > -place.radius_px && place.v > -place.radius_px &&
-         place.u < 2.5 * rig.cx + place.radius_px && place.v < 2.5 * rig.cy + place.radius_px;
-}
 
 TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
                             const SurveyFrame& frame, const TrackOptions& options) {
@@ -43,9 +43,10 @@ TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span
   TrackTargets targets;
   const FrameView view{rig, frame.observed, frame.odometry.inverse()};
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const Appearance appearance = appearance_of(frames, tracks[i].latest);
+    if (is_full(tracks[i], frame.id, options)) continue;
+    const Appearance appearance = appearance_of(frames, tracks[i].sightings.back());
     auto place = predict_place(view, tracks[i].point_in_world, appearance, options.search_px);
-    if (!place || !is_near_image(rig, *place)) continue;
+    if (!place) continue;
     const double play = depth_play_px(rig, frames, tracks[i], frame);
     if (!(play <= kMaxPlayPx)) continue;
     place->radius_px += play;
@@ -59,11 +60,12 @@ TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span
 /// Whether a feature of the frame can show what the track showed last, as the two poses have it.
 bool agrees(const Rig& rig, const FrameBuffer& frames, const Track& track, const SurveyFrame& frame,
             std::size_t feature, double epipolar_px) {
-  const Observation& then = observation_of(frames, track.latest);
+  const Observation& then = observation_of(frames, track.sightings.back());
   const Observation& now = frame.observed.observations[feature];
-  const Rigid3 now_from_then = frame.odometry.inverse() * frames[track.latest.keyframe].odometry;
-  const double scale = std::max({1.0, static_cast<double>(keypoint_of(frames, track.latest).sigma_px),
-                                 static_cast<double>(frame.observed.features.keypoints[feature].sigma_px)});
+  const Rigid3 now_from_then = frame.odometry.inverse() * frames[track.sightings.back().keyframe].odometry;
+  const double scale =
+      std::max({1.0, static_cast<double>(keypoint_of(frames, track.sightings.back()).sigma_px),
+                static_cast<double>(frame.observed.features.keypoints[feature].sigma_px)});
   const double off_line = epipolar_distance(rig, now_from_then, {then.u, then.v}, {now.u, now.v});
   if (off_line > epipolar_px * scale) return false;
   const Eigen::Vector3d point = frame.odometry.inverse() * track.point_in_world;
@@ -110,7 +112,7 @@ void keep_useful(SurveyFrame& frame, std::span<TrackMatch> matches) {
   frame.observed = select(observed, frame.kept);
 }
 
-void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches, const TrackOptions& options,
+void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches,
                    std::vector<Track>& tracks) {
   const ObservedFrame& observed = frame.observed;
   const auto point = [&](std::size_t feature) { return frame.odometry * observed.points_in_camera[feature]; };
@@ -118,38 +120,32 @@ void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches
   for (const TrackMatch& match : matches) {
     Track& track = tracks[static_cast<std::size_t>(match.track)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    track.latest = {frame.id, match.feature};
-    const auto count = static_cast<int>(track.sightings.size());
-    if (count > 0 && count + 1 < options.max_frames) track.sightings.push_back(track.latest);
+    track.sightings.push_back({frame.id, match.feature});
     taken[feature] = 1;
     if (!observed.observations[feature].has_disparity()) continue;
-    track.measured = track.latest;
+    track.measured = track.sightings.back();
     track.point_in_world = point(feature);
   }
   for (std::size_t i = 0; i < taken.size(); ++i) {
     if (taken[i] != 0 || !observed.observations[i].has_disparity()) continue;
     const Sighting first{frame.id, static_cast<std::int32_t>(i)};
-    tracks.push_back({{first}, first, first, point(i)});
+    tracks.push_back({{first}, first, point(i)});
   }
 }
 
 std::vector<Track> take_finished(KeyframeId newest, const TrackOptions& options, std::vector<Track>& tracks) {
-  std::vector<Track> finished;
-  const auto has_left = [&](const Track& track) {
-    return newest.value - track.measured.keyframe.value >= options.window;
+  const auto is_open = [&](const Track& track) {
+    const auto frames_since = [&](const Sighting& sighting) {
+      return newest.value - sighting.keyframe.value;
+    };
+    const bool has_left = frames_since(track.measured) >= options.window;
+    const bool is_smooth = frames_since(track.sightings.back()) >= options.smooth_frames;
+    return !(has_left || (is_full(track, newest, options) && is_smooth));
   };
-  // A full one waits until the poses of its frames are smooth.
-  const auto is_full = [&](const Track& track) {
-    return static_cast<int>(track.sightings.size()) + 1 >= options.max_frames &&
-           newest.value - track.sightings.back().keyframe.value >= options.smooth_frames;
-  };
-  for (Track& track : tracks) {
-    if (track.sightings.empty() || !(is_full(track) || has_left(track))) continue;
-    finished.push_back(track);
-    track.sightings.clear();
-  }
-  std::erase_if(tracks, has_left);
-  return finished;
+  const auto finished = std::stable_partition(tracks.begin(), tracks.end(), is_open);
+  std::vector<Track> taken(std::make_move_iterator(finished), std::make_move_iterator(tracks.end()));
+  tracks.erase(finished, tracks.end());
+  return taken;
 }
 
 }  // namespace cairn

@@ -12,11 +12,10 @@ namespace cairn {
 
 /// Features of several frames that show one thing: a landmark in the making.
 struct Track {
-  std::vector<Sighting> sightings;  ///< by frame, increasing, one for each; none: it was full and taken out
-  Sighting latest;                  ///< the same as the last, or a later one that a full track did not take
+  std::vector<Sighting> sightings;  ///< by frame, increasing, one for each
   Sighting measured;                ///< the latest with a disparity
-  Eigen::Vector3d point_in_world =
-      Eigen::Vector3d::Zero();  ///< as that disparity places it, in SurveyFrame::odometry's world
+  /// As that disparity places it, in the world of SurveyFrame::odometry.
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
 };
 
 /// Feature `feature` of the current frame shows what track number `track` shows.
@@ -40,12 +39,10 @@ void keep_useful(SurveyFrame& frame, std::span<TrackMatch> matches);
 
 /// Matched features join their tracks, if these are not full; each of the others begins one, at the end, if
 /// it has a disparity.
-void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches, const TrackOptions& options,
-                   std::vector<Track>& tracks);
+void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches, std::vector<Track>& tracks);
 
-/// Takes out, in their order, the tracks that have left the window of frames which ends at `newest`, and what
-/// full ones have seen. A full one stays without sightings until it leaves the window, so that what it shows
-/// does not begin another.
+/// Takes out, in their order, the tracks that have left the window of frames which ends at `newest`, and
+/// those that are full, once the poses of their frames are smooth.
 [[nodiscard]] std::vector<Track> take_finished(KeyframeId newest, const TrackOptions& options,
                                                std::vector<Track>& tracks);
 

@@ -28,10 +28,12 @@ static inline DoubleLanes choose(DoubleLanes a, DoubleLanes b, DoubleLanes if_gr
   return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(a, b, _CMP_GT_OQ), otherwise, if_greater);
 }
 static inline DoubleLanes both_halves(DoubleLanes a, DoubleLanes b) {
-  return _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0x44) + _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0xEE);
+  return _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0x44) +
+         _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0xEE);
 }
 static inline DoubleLanes both_quarters(DoubleLanes a, DoubleLanes b) {
-  return _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0x88) + _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0xDD);
+  return _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0x88) +
+         _mm512_maskz_shuffle_f64x2(kAllEight, a, b, 0xDD);
 }
 static inline DoubleLanes fours(const DoubleLanes (*eights)[1]) {
   return both_quarters(both_halves(eights[0][0], eights[2][0]), both_halves(eights[4][0], eights[6][0]));
@@ -40,7 +42,8 @@ static inline DoubleLanes fours(const DoubleLanes (*eights)[1]) {
 /// (l0 + l4) + (l2 + l6) plus (l1 + l5) + (l3 + l7).
 static inline void add_eights(const DoubleLanes (*eights)[1], double* sums) {
   const DoubleLanes even = fours(eights), odd = fours(eights + 1);
-  store(sums, _mm512_maskz_unpacklo_pd(kAllEight, even, odd) + _mm512_maskz_unpackhi_pd(kAllEight, even, odd));
+  store(sums,
+        _mm512_maskz_unpacklo_pd(kAllEight, even, odd) + _mm512_maskz_unpackhi_pd(kAllEight, even, odd));
 }
 #elif defined(__AVX2__)
 using DoubleLanes = __m256d;

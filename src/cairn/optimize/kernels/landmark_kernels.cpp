@@ -56,8 +56,9 @@ struct LaneSums {
   total.sums[kInformation + 5] += u.z * u.z + v.z * v.z + d.z * d.z;
 }
 
-/// -(g a^T + a g^T) with g the sighting's gradient and a = axis / depth: that each error's second derivative is
-/// -(e' a^T + a e'^T), with e' its first, follows from e = (m . q) / (axis . q) + constant.
+/// -(g a^T + a g^T) with g the sighting's gradient and a = axis / depth. For each error is of the form
+/// e = (m . q) / (axis . q) + constant, and so its second derivative is -(e' a^T + a e'^T), e' being its
+/// first.
 [[gnu::always_inline]] inline void add_curvature(const Three& g, const Three& a, LaneSums& total) {
   const Three b{spread(0.0) - a.x, spread(0.0) - a.y, spread(0.0) - a.z};
   total.sums[kCurvature] += g.x * b.x + g.x * b.x;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/landmark_ply.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cairn/core/file.h"
+#include "cairn/map/indicators.h"
+#include "cairn/map/landmark_stream.h"
+#include "cairn/map/map_file.h"
+#include "cairn/report/colors.h"
+
+namespace cairn {
+namespace {
+
+constexpr double kLowStd = 0.01, kHighStd = 1.0;  // metres: the ends of the colours
+constexpr Rgb8 kUnknownColor{150, 150, 150};
+constexpr std::size_t kLandmarksAtOnce = 4096;
+
+std::string format_header(std::uint32_t landmarks) {
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment written by cairn, metres\n"
+      "comment colour: standard deviation along the worst direction, logarithmic, dark blue {} m or less to "
+      "orange {} m or more, grey unknown\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty float std\nend_header\n",
+      kLowStd, kHighStd, landmarks);
+}
+
+Rgb8 std_color(double std) {
+  if (std::isnan(std)) return kUnknownColor;
+  return error_rgb(std::log(std::max(std, kLowStd) / kLowStd) / std::log(kHighStd / kLowStd));
+}
+
+void put_vertex(const StoredLandmark& landmark, ByteWriter& writer) {
+  const double std = landmark.covariance.isZero(0) ? std::numeric_limits<double>::quiet_NaN()
+                                                   : largest_std(landmark.covariance);
+  const Rgb8 color = std_color(std);
+  for (const double coordinate : landmark.point_in_world) writer.put(coordinate);
+  for (const std::uint8_t channel : {color.r, color.g, color.b}) writer.put(channel);
+  writer.put(static_cast<float>(std));
+}
+
+}  // namespace
+
+void write_landmark_ply(const std::filesystem::path& map_folder, const std::filesystem::path& path) {
+  const std::filesystem::path folder = require_map_folder(map_folder);
+  const MapInfo info = read_map_info(folder / kMapInfoFile);
+  LandmarkStream landmarks(folder, info);
+  AtomicFile file(path);
+  file.write(format_header(info.landmarks));
+  ByteWriter writer;
+  for (std::uint32_t i = 1; const auto landmark = landmarks.next(); ++i) {
+    put_vertex(*landmark, writer);
+    if (i % kLandmarksAtOnce != 0) continue;
+    file.write(writer.bytes());
+    writer = {};
+  }
+  file.write(writer.bytes());
+  file.commit();
+}
+
+}  // namespace cairn

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/duplicates.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cairn/survey/test_drive.h"
+
+namespace cairn {
+namespace {
+
+using test::kDriveRig;
+
+/// Features 0, 1 and 2 show one thing (a corner that was found thrice), feature 3 something that looks
+/// different at the same place, feature 4 something that looks the same two metres aside.
+class MergeDuplicates : public testing::Test {
+ protected:
+  static std::vector<test::DrivePoint> points() {
+    const Eigen::Vector3d place(2, -0.5, 22);
+    return {{place, 1}, {place, 1}, {place, 1}, {place, 8}, {place + Eigen::Vector3d(2, 0, 0), 1}};
+  }
+  [[nodiscard]] SurveyLandmark landmark(std::int32_t feature, int first, int last) const {
+    auto fitted = fit_sightings(kDriveRig, frames_, test::sightings_of(feature, first, last), options_);
+    EXPECT_TRUE(fitted.has_value());
+    if (!fitted) return {};
+    complete_covariance(frames_, prior_, true, *fitted);
+    return *fitted;
+  }
+  std::int64_t merge(std::vector<SurveyLandmark>&& added) {
+    return merge_duplicates(kDriveRig, frames_, prior_, std::move(added), options_, pending_);
+  }
+
+  FrameBuffer frames_ = test::drive(points(), 14, 0.3);
+  VariancePrior prior_;
+  SurveyOptions options_;
+  std::vector<SurveyLandmark> pending_;
+};
+
+TEST_F(MergeDuplicates, what_is_one_becomes_one) {
+  const SurveyLandmark early = landmark(0, 0, 5), late = landmark(1, 6, 11);
+  EXPECT_EQ(merge({early}), 0);
+  EXPECT_EQ(merge({late}), 1);
+  ASSERT_EQ(pending_.size(), 1U);
+  std::vector<Sighting> both = early.sightings;
+  both.insert(both.end(), late.sightings.begin(), late.sightings.end());
+  EXPECT_EQ(pending_[0].sightings, both);
+  EXPECT_EQ(pending_[0].indicators.frames, 12);
+  EXPECT_LT((pending_[0].point_in_world - points()[0].position).norm(), 0.3);
+  EXPECT_LT(pending_[0].covariance().trace(), early.covariance().trace());
+  EXPECT_LT(pending_[0].covariance().trace(), late.covariance().trace());
+  EXPECT_EQ(pending_[0].variance_factor,
+            prior_.factor(pending_[0].squared_error_sum, pending_[0].redundancy));
+}
+
+TEST_F(MergeDuplicates, in_a_common_frame_the_earlier_ones_sighting_stays) {
+  merge({landmark(0, 0, 5)});
+  EXPECT_EQ(merge({landmark(1, 4, 9)}), 1);
+  ASSERT_EQ(pending_.size(), 1U);
+  std::vector<Sighting> both = test::sightings_of(0, 0, 5);
+  for (const Sighting& sighting : test::sightings_of(1, 6, 9)) both.push_back(sighting);
+  EXPECT_EQ(pending_[0].sightings, both);
+}
+
+TEST_F(MergeDuplicates, what_looks_different_stays_two) {
+  EXPECT_EQ(merge({landmark(0, 0, 5), landmark(3, 4, 9)}), 0);
+  EXPECT_EQ(pending_.size(), 2U);
+}
+
+TEST_F(MergeDuplicates, what_is_apart_stays_two) {
+  EXPECT_EQ(merge({landmark(0, 0, 5), landmark(4, 6, 11)}), 0);
+  EXPECT_EQ(pending_.size(), 2U);
+}
+
+TEST_F(MergeDuplicates, uncertain_ones_that_one_point_does_not_fit_stay_two) {
+  // Their covariances reach across the two metres, their sightings do not.
+  SurveyLandmark here = landmark(0, 0, 5), there = landmark(4, 6, 11);
+  here.cofactor = there.cofactor = 4 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(merge({here, there}), 0);
+  EXPECT_EQ(pending_.size(), 2U);
+}
+
+TEST_F(MergeDuplicates, the_errors_of_poses_do_not_make_one_of_two) {
+  // They move both alike.
+  SurveyLandmark here = landmark(0, 0, 5), there = landmark(4, 0, 5);
+  there.sightings = test::sightings_of(0, 6, 11);
+  here.pose_covariance = there.pose_covariance = 4 * Eigen::Matrix3d::Identity();
+  EXPECT_EQ(merge({here, there}), 0);
+}
+
+TEST_F(MergeDuplicates, a_landmark_spans_fewer_frames_than_the_most) {
+  options_.tracks.max_frames = 12;
+  EXPECT_EQ(merge({landmark(0, 0, 5), landmark(1, 6, 11)}), 0);
+  EXPECT_EQ(pending_.size(), 2U);
+  pending_.clear();
+  options_.tracks.max_frames = 13;
+  EXPECT_EQ(merge({landmark(0, 0, 5), landmark(1, 6, 11)}), 1);
+}
+
+TEST_F(MergeDuplicates, a_chain_becomes_one) {
+  EXPECT_EQ(merge({landmark(0, 0, 4), landmark(1, 5, 8), landmark(2, 9, 12)}), 2);
+  ASSERT_EQ(pending_.size(), 1U);
+  EXPECT_EQ(pending_[0].sightings.size(), 13U);
+  EXPECT_EQ(pending_[0].sightings.back(), (Sighting{{12}, 2}));
+}
+
+TEST_F(MergeDuplicates, no_sigmas_no_merging) {
+  options_.cleaning.duplicate_sigmas = 0;
+  EXPECT_EQ(merge({landmark(0, 0, 5), landmark(1, 6, 11)}), 0);
+}
+
+}  // namespace
+}  // namespace cairn
