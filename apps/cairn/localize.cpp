@@ -19,6 +19,8 @@
 namespace cairn::app {
 namespace {
 
+constexpr const char* kFollow = "last";  // for --prior: where the image before was found
+
 struct LocalizeArguments {
   CommonOptions common;
   SequenceArguments sequence;
@@ -134,6 +136,26 @@ int exit_code(const std::vector<LocalizedImage>& images) {
   return 1;
 }
 
+/// Where each image is thought to be, from a file; nothing where none is given.
+std::vector<std::optional<WorldFromCamera>> read_priors(const LocalizeArguments& arguments,
+                                                        const Sequence& sequence) {
+  if (arguments.prior.empty() || arguments.prior == kFollow) return {};
+  return poses_of_frames(sequence, {.path = arguments.prior});
+}
+
+/// All images, as long as no one asks to stop.
+void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor, Progress& progress) {
+  const auto take = [&](std::size_t i, LocalizeRun::Item&& item) {
+    if (!run.take(i, std::move(item), sequence)) progress.warn(run.unreadable().back() + " It is skipped.");
+    progress.update(static_cast<std::int64_t>(i) + 1);
+    return !progress.stop_requested();
+  };
+  progress.start("localising", static_cast<std::int64_t>(sequence.frames.size()), "images");
+  executor.ordered_pipeline<LocalizeRun::Item>(
+      sequence.frames.size(), [&](std::size_t i) { return run.produce(i); }, take);
+  progress.finish();
+}
+
 }  // namespace
 
 int run_localize(int argc, char** argv) {
@@ -157,22 +179,12 @@ int run_localize(int argc, char** argv) {
   const auto progress = make_progress(arguments.common);
   Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
 
-  const bool follow = arguments.prior == "last";
-  std::vector<std::optional<WorldFromCamera>> priors;
-  if (!arguments.prior.empty() && !follow) priors = poses_of_frames(sequence, {.path = arguments.prior});
-  const Frontend frontend(sequence, observer_options_for(map.info(), parameters.features, parameters.contrast));
+  const Frontend frontend(sequence,
+                          observer_options_for(map.info(), parameters.features, parameters.contrast));
   const Localizer localizer(map, camera, parameters.localize);
-  LocalizeRun run(localizer, frontend, parameters.localize.trust, std::move(priors), follow);
-  progress->start("localising", static_cast<std::int64_t>(sequence.frames.size()), "images");
-  executor.ordered_pipeline<LocalizeRun::Item>(
-      sequence.frames.size(), [&](std::size_t i) { return run.produce(i); },
-      [&](std::size_t i, LocalizeRun::Item&& item) {
-        if (!run.take(i, std::move(item), sequence))
-          progress->warn(run.unreadable().back() + " It is skipped.");
-        progress->update(static_cast<std::int64_t>(i) + 1);
-        return !progress->stop_requested();
-      });
-  progress->finish();
+  LocalizeRun run(localizer, frontend, parameters.localize.trust, read_priors(arguments, sequence),
+                  arguments.prior == kFollow);
+  run_all(run, sequence, executor, *progress);
   check.wait();
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 

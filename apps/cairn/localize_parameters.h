@@ -13,9 +13,9 @@ namespace cairn::app {
 struct LocalizeParameters {
   SequenceOptions sequence;
   LocalizeOptions localize;
-  int features = 2000;     ///< at most so many of an image
+  int features = 2000;                          ///< at most so many of an image
   double contrast = FeatureOptions{}.contrast;  ///< of SIFT: the least that a feature has
-  std::string descriptor;  ///< empty: the map's, which it has to be
+  std::string descriptor;                       ///< empty: the map's, which it has to be
 
   /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.
   [[nodiscard]] SettingTable table();

@@ -50,6 +50,46 @@ class Euroc(program.Quality):
         self.assertLessEqual(run["ate_rmse_m"], 0.05)
 
 
+class Localisation(program.Quality):
+    """Part of a recording makes the map, the rest is looked for in it, against the given poses."""
+
+    def locate(self, sequence, mapped, queried, *options):
+        self.cairn("map", sequence, *mapped, "-o", "map", "--quiet")
+        found = self.figures("localize", "map", sequence, *queried, *options, "-o", "found")
+        errors = self.figures("evaluate", "found/trajectory.txt", sequence, "--align", "none")
+        return found["images"], errors
+
+    def test_redkitchen(self):
+        sequence = program.recordings() / "rgbd/redkitchen"
+        images, errors = self.locate(sequence, ("--frames", "0:400"), ("--frames", "400:600"))
+        self.assertGreaterEqual(images["good"], 0.85 * 200)
+        self.assertLessEqual(errors["ate_median_m"], 0.035)
+        self.assertLessEqual(errors["ate_median_deg"], 1.5)
+
+    def test_euroc(self):
+        sequence = program.recordings() / "stereo/euroc_v101"
+        for options in ((), ("--mono",)):
+            images, errors = self.locate(sequence, ("--without", "4::5"), ("--frames", "4::5"), *options)
+            self.assertEqual(images["good"], 20)
+            self.assertLessEqual(errors["ate_max_m"], 0.10)
+            self.assertLessEqual(errors["ate_median_m"], 0.04)
+
+    def test_kitti(self):
+        sequence = program.recordings() / "stereo/kitti_0039"
+        images, errors = self.locate(sequence, ("--without", "4::5"), ("--frames", "4::5"))
+        self.assertEqual(images["good"], 40)
+        self.assertLessEqual(errors["ate_max_m"], 0.30)
+        self.assertLessEqual(errors["ate_median_m"], 0.10)
+
+    def test_images_of_another_recording_are_not_good(self):
+        recordings = program.recordings()
+        self.cairn("map", recordings / "stereo/euroc_v101", "-o", "map", "--quiet")
+        self.cairn("localize", "map", recordings / "rgbd/redkitchen", "--frames", "::6", "--any-camera", "-o", "found", "--quiet", code=1)
+        rows = (self.folder / "found/localization.csv").read_text().splitlines()[2:]
+        self.assertEqual(len(rows), 100)
+        self.assertEqual([row for row in rows if ",good," in row], [])
+
+
 class GoingOn(program.Quality):
     def test_a_map_goes_on_with_another_part_of_the_recording(self):
         sequence = program.recordings() / "rgbd/redkitchen"

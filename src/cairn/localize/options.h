@@ -11,9 +11,9 @@ namespace cairn {
 
 /// When a pose is called good.
 struct TrustOptions {
-  int min_inliers = 30;  ///< wrong poses had fewer than 20 on all recordings tried
+  int min_inliers = 50;  ///< poses that were wrong by 5 degrees had up to 47 on the recordings tried
   /// Of them, matches by descriptor alone: those found around a predicted place agree with any pose.
-  int min_independent = 12;
+  int min_independent = 20;
   int min_cells = 4;             ///< of 4 x 4 that the image is cut into, with an inlier
   double max_gdop = 0.05;        ///< metres per pixel of noise in every observation
   double max_position = 0.5;     ///< metres: largest protection level of an axis
