@@ -40,7 +40,7 @@ def earlier_map(root):
     file("map/uvlist.txt", "of an earlier run")(root)
 
 
-FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Point.bin", "config.yaml", "frames", "map.json", "poses.txt", "report.json",
+FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Place.bin", "Point.bin", "config.yaml", "frames", "landmarks.ply", "map.json", "poses.txt", "report.json",
                                          "uvlist.txt", ".cairn"))
 
 
@@ -95,7 +95,7 @@ CASES = [
          (SEQ, file("map.unfinished/thesis.tex", "years of work"))),
     Case("disk full", "map seq -o map", ("map.unfinished",), (SEQ,), file_limit=100),
     # what it makes
-    Case("a wall without texture", "map seq -o map --quiet", ("cairn map: not one landmark", "--time-offset"), (SEQ,), code=1, leaves=("map",)),
+    Case("a wall without texture", "map seq -o map --quiet", ("cairn map: not one landmark", "--pose-offset"), (SEQ,), code=1, leaves=("map",)),
     Case("given poses", f"map street --poses street/poses.txt -o map --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),
          prints=("frames       10 of 10 mapped", "poses        KITTI", "landmarks    ")),
     Case("figures as JSON", f"map street -o map --json --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),
