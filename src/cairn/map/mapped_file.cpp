@@ -86,6 +86,10 @@ const char* MappedFile::bytes(std::uint64_t offset, std::uint64_t count) const {
   return contents_ + offset;
 }
 
+void MappedFile::forget() const {
+  ::madvise(const_cast<char*>(contents_), file_bytes_, MADV_DONTNEED);
+}
+
 void MappedFile::fetch(std::uint64_t offset, std::uint64_t count) const {
   constexpr std::uint64_t kLineBytes = 64;  // of a cache
   const std::uint64_t end = std::min(size_, offset + count);

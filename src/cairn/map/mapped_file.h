@@ -30,6 +30,8 @@ class MappedFile {
   [[nodiscard]] const char* bytes(std::uint64_t offset, std::uint64_t count) const;
   /// Asks the memory for bytes that are wanted soon, so that they need not be waited for.
   void fetch(std::uint64_t offset, std::uint64_t count) const;
+  /// The memory may do without what was read so far; it is read again when it is asked for.
+  void forget() const;
   template <class Value>
   [[nodiscard]] Value at(std::uint64_t offset) const {
     static_assert(std::is_arithmetic_v<Value>);

@@ -43,6 +43,10 @@ class Scratch {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
   [[nodiscard]] char* data() { return static_cast<char*>(memory_); }
+  /// What was written may lie on the disk alone.
+  void forget() {
+    if (bytes_ > 0) ::madvise(memory_, bytes_, MADV_DONTNEED);
+  }
   [[nodiscard]] std::string_view all() const { return {static_cast<const char*>(memory_), bytes_}; }
 
  private:
@@ -87,6 +91,7 @@ class IndexedRows {
         if (batch.landmarks.size() < kBatchRows) continue;
         take(batch);
         batch.landmarks.clear();
+        forget();
       }
     }
     if (batch.landmarks.empty()) return;
@@ -95,6 +100,13 @@ class IndexedRows {
                 last.descriptors.stride() * batch.landmarks.size());
     last.landmarks = std::move(batch.landmarks);
     take(last);
+    forget();
+  }
+
+  /// Keeps the memory as small as a batch, however large the map is.
+  void forget() const {
+    points_.forget();
+    descriptors_.forget();
   }
 
   /// The keyframe of each row of Descriptor.bin.
@@ -217,6 +229,8 @@ void fill_leaves(const IndexedRows& rows, const DescriptorTree& tree, std::vecto
       std::memcpy(landmarks.data() + place * sizeof(std::uint32_t), &batch.landmarks[query],
                   sizeof(std::uint32_t));
     }
+    descriptors.forget();
+    landmarks.forget();
   });
 }
 
@@ -225,6 +239,7 @@ void write_keyframes(const IndexedRows& rows, SectionWriter& sections) {
   const auto flush = [&] {
     sections.add(bytes_of(keyframes));
     keyframes.clear();
+    rows.forget();
   };
   rows.for_each_keyframe([&](std::int32_t keyframe) {
     keyframes.push_back(keyframe);
