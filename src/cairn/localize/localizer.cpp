@@ -135,7 +135,8 @@ Localization Localizer::localize_near(const ObservedFrame& observed, const World
 }
 
 Localization Localizer::localize_anywhere(const ObservedFrame& observed) const {
-  const auto most = static_cast<std::size_t>(options_.keyframes + options_.more_keyframes);
+  const auto most =
+      static_cast<std::size_t>(options_.keyframes) + static_cast<std::size_t>(options_.more_keyframes);
   const auto places = find_places(map_, observed.features.descriptors, most);
   Localization best;
   for (std::size_t begin = 0; begin < places.size() && best.verdict != Verdict::good;

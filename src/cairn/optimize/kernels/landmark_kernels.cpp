@@ -33,7 +33,7 @@ struct Rows {
 };
 
 /// LandmarkSums lane by lane, in its order from these places.
-enum : int { kInformation = 0, kCurvature = 6, kGradient = 12, kSquaredError = 15, kSums = 16 };
+constexpr int kInformation = 0, kCurvature = 6, kGradient = 12, kSquaredError = 15, kSums = 16;
 static_assert(sizeof(LandmarkSums) == kSums * sizeof(double));
 
 struct LaneSums {

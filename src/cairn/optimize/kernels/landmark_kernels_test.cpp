@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <vector>
 
 #include "cairn/core/random.h"
@@ -49,10 +51,18 @@ Result run(LandmarkExpansion* expansion, const std::vector<SightingBlock>& block
   return result;
 }
 
+bool same_bits(const double* a, const double* b, std::size_t count) {
+  return std::equal(a, a + count, b, [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
 bool same_bits(const Result& a, const Result& b) {
-  return std::memcmp(&a.sums, &b.sums, sizeof a.sums) == 0 &&
-         std::memcmp(a.pixel_errors.data(), b.pixel_errors.data(), sizeof a.pixel_errors) == 0 &&
-         std::memcmp(a.errors.data(), b.errors.data(), sizeof a.errors) == 0;
+  constexpr std::size_t kSums = sizeof(LandmarkSums) / sizeof(double);
+  return same_bits(reinterpret_cast<const double*>(&a.sums), reinterpret_cast<const double*>(&b.sums),
+                   kSums) &&
+         same_bits(a.pixel_errors.data(), b.pixel_errors.data(), a.pixel_errors.size()) &&
+         same_bits(a.errors.data(), b.errors.data(), a.errors.size());
 }
 
 /// (u, v, d) errors of one sighting at a point, as SightingBlock has them; linear: times depth over `depth`.
