@@ -57,9 +57,9 @@ struct TimeRules {
 
 TimeRules rules_for(const Sequence& sequence, const RecordedPoses& recorded,
                     const GivenPosesOptions& options) {
-  constexpr std::uint64_t kRoundedStamp_ns = 1'000'000;
+  constexpr std::uint64_t kRoundedStampNs = 1'000'000;
   const bool exact = recorded.key != PoseKey::stamp || (recorded.format == "truth" && !has_clock(sequence));
-  if (!exact) return {static_cast<std::uint64_t>(std::llround(options.max_gap_s * 1e9)), kRoundedStamp_ns};
+  if (!exact) return {static_cast<std::uint64_t>(std::llround(options.max_gap_s * 1e9)), kRoundedStampNs};
   if (options.time_offset_s == 0) return {};
   throw InputError({"time_offset_s", 0, "0, as these poses belong to frames by their numbers",
                     fmt::format("{}", options.time_offset_s), "Leave it out."});

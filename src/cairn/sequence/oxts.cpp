@@ -35,19 +35,19 @@ std::optional<std::int64_t> parse_time_of_day(std::string_view text) {
   if (!split || !parse_integer(text.substr(0, 2), hours) || !parse_integer(text.substr(3, 2), minutes) ||
       !parse_stamp(text.substr(6), stamp_ns))
     return std::nullopt;
-  constexpr std::int64_t kMinute_ns = 60'000'000'000;
+  constexpr std::int64_t kMinuteNs = 60'000'000'000;
   const auto within = [](std::int64_t value, std::int64_t end) { return value >= 0 && value < end; };
-  if (!within(hours, 24) || !within(minutes, 60) || !within(stamp_ns, kMinute_ns + kMinute_ns / 60))
+  if (!within(hours, 24) || !within(minutes, 60) || !within(stamp_ns, kMinuteNs + kMinuteNs / 60))
     return std::nullopt;  // a minute may have a leap second
-  return (hours * 60 + minutes) * kMinute_ns + stamp_ns;
+  return (hours * 60 + minutes) * kMinuteNs + stamp_ns;
 }
 
 /// Nanoseconds since 1970, UTC.
 std::int64_t parse_date(const TextFile& file, const TextLine& line) {
-  constexpr std::int64_t kDay_ns = 86'400'000'000'000;
+  constexpr std::int64_t kDayNs = 86'400'000'000'000;
   file.expect_fields(line, 2, "date time, 2011-09-26 13:02:25.594360375");
   const auto days = parse_days(line.fields[0]), time_ns = parse_time_of_day(line.fields[1]);
-  if (days && time_ns) return *days * kDay_ns + *time_ns;
+  if (days && time_ns) return *days * kDayNs + *time_ns;
   file.fail(line, "a date and a time, 2011-09-26 13:02:25.594360375",
             fmt::format("'{} {}'", line.fields[0], line.fields[1]), "Mend the line.");
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kTimes =
     "2011-09-26 13:02:25.594360375\n2011-09-26 13:02:25.694360375\n2011-09-26 13:02:25.794360375\n";
-constexpr std::int64_t kFirst_ns = 1'317'042'145'594'360'375;  // date -u -d '2011-09-26 13:02:25' +%s
+constexpr std::int64_t kFirstNs = 1'317'042'145'594'360'375;  // date -u -d '2011-09-26 13:02:25' +%s
 
 /// lat lon alt roll pitch yaw, velocities, accelerations, rates, pos_accuracy, vel_accuracy, status.
 std::string packet(double latitude_deg, double longitude_deg, double height_m, const std::string& angles,
@@ -34,7 +34,7 @@ class OxtsTest : public testing::Test, protected TestFolder {
   }
   static Sequence sequence() {
     Sequence frames = sequence_of("KITTI", {0, 1, 2}, 10);
-    for (FrameFiles& files : frames.frames) files.stamp_ns += kFirst_ns;
+    for (FrameFiles& files : frames.frames) files.stamp_ns += kFirstNs;
     frames.calibration.body_from_camera = forward_camera_on_flu();
     return frames;
   }
@@ -126,27 +126,27 @@ struct BrokenPackets {
 };
 
 TEST_F(OxtsTest, broken_packets_are_refused) {
-  const char* const kTime = "a date and a time, 2011-09-26 13:02:25.594360375";
-  const char* const kSecond = "data/0000000001.txt";
+  const char* const time = "a date and a time, 2011-09-26 13:02:25.594360375";
+  const char* const second = "data/0000000001.txt";
   const BrokenPackets cases[] = {
       {"timestamps.txt", "2011-09-26 13:02:25\n", 0, "3 times, one for each packet in data/", "1"},
       {"timestamps.txt", "1\n2\n3\n", 1, "2 values (date time, 2011-09-26 13:02:25.594360375)", "1"},
-      {"timestamps.txt", "2011-02-29 13:02:25\n\n\n2011-02-28 1:1:1\n2011-02-28 1:1:1\n", 1, kTime,
+      {"timestamps.txt", "2011-02-29 13:02:25\n\n\n2011-02-28 1:1:1\n2011-02-28 1:1:1\n", 1, time,
        "'2011-02-29 13:02:25'"},
-      {"timestamps.txt", "2011-09-26 24:02:25\n2011-09-26 1:1:1\n2011-09-26 1:1:1\n", 1, kTime,
+      {"timestamps.txt", "2011-09-26 24:02:25\n2011-09-26 1:1:1\n2011-09-26 1:1:1\n", 1, time,
        "'2011-09-26 24:02:25'"},
-      {"timestamps.txt", "26.09.2011 13:02:25\n2011-09-26 1:1:1\n2011-09-26 1:1:1\n", 1, kTime,
+      {"timestamps.txt", "26.09.2011 13:02:25\n2011-09-26 1:1:1\n2011-09-26 1:1:1\n", 1, time,
        "'26.09.2011 13:02:25'"},
       {"timestamps.txt", "2011-09-26 13:02:25\n2011-09-26 13:02:24.5\n2011-09-26 13:02:26\n", 2,
        "a time stamp after 1317042145.000000000", "1317042144.500000000"},
-      {kSecond, "", 0, "one line with 30 values", "0 lines"},
-      {kSecond, "1 2 3\n", 1, "30 values (lat lon alt roll pitch yaw ... pos_accuracy ... orimode)", "3"},
-      {kSecond, packet(91, 8, 0, "0 0 0"), 1, "lat from -90 to 90 degrees", "91"},
-      {kSecond, packet(49, -181, 0, "0 0 0"), 1, "lon from -180 to 360 degrees", "-181"},
-      {kSecond, packet(49, 8, 1e7, "0 0 0"), 1, "alt from -1e+06 to 1e+06 m", "1e+07"},
-      {kSecond, packet(49, 8, 0, "0 0 143.2"), 1, "yaw from -6.28319 to 6.28319 radians", "143.2"},
-      {kSecond, packet(49, 8, 0, "0 nan 0"), 1, "a number for pitch", "'nan'"},
-      {kSecond, packet(49, 8, 0, "0 0 0", -1), 1, "pos_accuracy from 0 to 1e+06 m", "-1"},
+      {second, "", 0, "one line with 30 values", "0 lines"},
+      {second, "1 2 3\n", 1, "30 values (lat lon alt roll pitch yaw ... pos_accuracy ... orimode)", "3"},
+      {second, packet(91, 8, 0, "0 0 0"), 1, "lat from -90 to 90 degrees", "91"},
+      {second, packet(49, -181, 0, "0 0 0"), 1, "lon from -180 to 360 degrees", "-181"},
+      {second, packet(49, 8, 1e7, "0 0 0"), 1, "alt from -1e+06 to 1e+06 m", "1e+07"},
+      {second, packet(49, 8, 0, "0 0 143.2"), 1, "yaw from -6.28319 to 6.28319 radians", "143.2"},
+      {second, packet(49, 8, 0, "0 nan 0"), 1, "a number for pitch", "'nan'"},
+      {second, packet(49, 8, 0, "0 0 0", -1), 1, "pos_accuracy from 0 to 1e+06 m", "-1"},
   };
   for (const BrokenPackets& broken : cases) {
     SCOPED_TRACE(broken.expected);

@@ -31,13 +31,13 @@ RecordedPoses empty_poses(const fs::path& source, const char* format) {
 }
 
 RecordedPoses read_tum(const fs::path& path, bool may_have_numbers) {
-  constexpr std::int64_t kSecond_ns = 1'000'000'000;  // a whole number was read as seconds
+  constexpr std::int64_t kSecondNs = 1'000'000'000;  // a whole number was read as seconds
   RecordedPoses recorded = poses_of_trajectory(read_tum_trajectory(path));
   recorded.source = path;
   recorded.format = "TUM";
   if (!may_have_numbers || !has_frame_numbers(path)) return recorded;
   recorded.key = PoseKey::number;
-  for (RecordedPose& pose : recorded.poses) pose.key /= kSecond_ns;
+  for (RecordedPose& pose : recorded.poses) pose.key /= kSecondNs;
   return recorded;
 }
 
