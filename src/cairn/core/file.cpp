@@ -123,6 +123,7 @@ void AtomicFile::fail(std::string_view doing) const {
 
 void AtomicFile::write(std::string_view bytes) {
   require(file_ != nullptr, "an AtomicFile is written before it is committed");
+  if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write the file");
 }
 

@@ -55,6 +55,7 @@ void Spool::fail(std::string_view doing) const {
 }
 
 void Spool::append(std::string_view bytes) {
+  if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write the file");
   bytes_ += bytes.size();
   checksum_.add(bytes);
