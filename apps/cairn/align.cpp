@@ -11,6 +11,7 @@
 #include "cairn/report/alignment_plot.h"
 #include "commands.h"
 #include "common.h"
+#include "compared_trajectories.h"
 #include "trajectory_inputs.h"
 
 namespace cairn::app {
@@ -19,6 +20,7 @@ namespace {
 struct AlignArguments {
   CommonOptions common;
   std::string estimate, reference, camera, plot;
+  StampOffset offset;
   double max_gap_s = 0.02;
   bool with_scale = false;
 };
@@ -34,7 +36,8 @@ struct Aligned {
 void declare(CLI::App& app, AlignArguments& arguments) {
   app.add_option(
          "EST", arguments.estimate,
-         "trajectory to move (TUM format), or a run's folder; alone: a file of pairs, 16 values a line: a "
+         "trajectory to move (TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md), or a run's folder; "
+         "alone: a file of pairs, 16 values a line: a "
          "pose of the estimate, then one of the reference")
       ->required();
   app.add_option("REF", arguments.reference,
@@ -44,6 +47,7 @@ void declare(CLI::App& app, AlignArguments& arguments) {
       ->check(number_in(0, 10))
       ->type_name("S")
       ->capture_default_str();
+  add_stamp_offset(app, "--offset", "EST", arguments.offset);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
       ->type_name("FILE|NAME");
@@ -59,8 +63,9 @@ void declare(CLI::App& app, AlignArguments& arguments) {
 /// Nothing, after a message, where no stamps are near each other.
 std::vector<PosePair> read_pairs(const AlignArguments& arguments) {
   if (arguments.reference.empty()) return read_pose_pairs(arguments.estimate);
-  const Trajectory estimate = read_estimate(arguments.estimate);
-  const Trajectory reference = read_reference(arguments.reference, arguments.camera);
+  const ComparedTrajectories compared =
+      read_compared({{arguments.estimate}, arguments.reference, arguments.camera, arguments.offset});
+  const Trajectory &estimate = compared.estimates[0], &reference = compared.reference;
   std::vector<PosePair> pairs = pair_poses(estimate, reference, arguments.max_gap_s);
   if (pairs.empty())
     fmt::print(stderr, "cairn: {}\n", explain_no_pairs(estimate, reference, arguments.max_gap_s));

@@ -212,6 +212,10 @@ std::unique_ptr<Progress> make_progress(const CommonOptions& options) {
   return std::make_unique<TerminalProgress>();
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "cairn: {}\n", warning);
+}
+
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -48,6 +48,9 @@ void add_sequence_options(CLI::App& app, SequenceArguments& arguments);
 /// --quiet. Installs the Ctrl-C handler: the first asks to stop, a second ends the program.
 [[nodiscard]] std::unique_ptr<Progress> make_progress(const CommonOptions& options);
 
+/// Prints each on stderr as "cairn: ...".
+void print_warnings(const std::vector<std::string>& warnings);
+
 /// The most memory that the program has had so far.
 [[nodiscard]] double peak_memory_mb();
 

@@ -9,8 +9,8 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "commands.h"
+#include "compared_trajectories.h"
 #include "evaluate_output.h"
-#include "trajectory_inputs.h"
 
 namespace cairn::app {
 namespace {
@@ -27,8 +27,8 @@ class UsageOfTrajectories : public CLI::Formatter {
 void declare_trajectories(CLI::App& app, EvaluateArguments& arguments) {
   app.add_option(
          "EST", arguments.estimates,
-         "EST: trajectory files (TUM format), or folders of runs; REF, the last: the truth, a trajectory "
-         "file, or a sequence's folder that carries it")
+         "EST: trajectory files (TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md), or folders of "
+         "runs; REF, the last: the truth, such a file, or a sequence's folder that carries it")
       ->required()
       ->option_text("... REF");
   app.formatter(std::make_shared<UsageOfTrajectories>());
@@ -64,6 +64,7 @@ void declare(CLI::App& app, EvaluateArguments& arguments) {
       ->check(number_in(0, 10))
       ->type_name("S")
       ->capture_default_str();
+  add_stamp_offset(app, "--offset", "EST", arguments.offset);
   declare_rpe(app, arguments);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
@@ -101,12 +102,21 @@ void check(EvaluateArguments& arguments) {
   arguments.options.rpe = rpe_options(arguments);
 }
 
-Evaluations evaluate(const EvaluateArguments& arguments, const Trajectory& reference) {
-  Evaluations evaluations{arguments, reference, {}};
-  for (const auto& path : arguments.estimates)
-    evaluations.estimates.push_back({path, read_estimate(path), {}});
+/// Where no file says a time there are no intervals in seconds.
+void leave_out_times(EvaluateArguments& arguments) {
+  arguments.has_times = false;
+  std::erase_if(arguments.options.rpe, [](const RpeOptions& rpe) { return rpe.unit == RpeUnit::seconds; });
+  if (arguments.rpe_unit != "seconds") return;
+  throw InputError({"--rpe-unit", 0, "frames or metres, as no file has time stamps", "seconds",
+                    "Choose another unit, or give one of the trajectories with time stamps."});
+}
+
+Evaluations evaluate(const EvaluateArguments& arguments, const ComparedTrajectories& compared) {
+  Evaluations evaluations{arguments, compared.reference, {}};
+  for (std::size_t i = 0; i < compared.estimates.size(); ++i)
+    evaluations.estimates.push_back({arguments.estimates[i], compared.estimates[i], {}});
   for (auto& [path, estimate, result] : evaluations.estimates)
-    result = evaluate_trajectory(estimate, reference, arguments.options);
+    result = evaluate_trajectory(estimate, compared.reference, arguments.options);
   return evaluations;
 }
 
@@ -118,8 +128,10 @@ int run_evaluate(int argc, char** argv) {
   declare(app, arguments);
   if (const auto code = parse(app, argc, argv)) return *code;
   check(arguments);
-  const Trajectory reference = read_reference(arguments.reference, arguments.camera);
-  const Evaluations evaluations = evaluate(arguments, reference);
+  const ComparedTrajectories compared =
+      read_compared({arguments.estimates, arguments.reference, arguments.camera, arguments.offset});
+  if (!compared.has_times) leave_out_times(arguments);
+  const Evaluations evaluations = evaluate(arguments, compared);
   for (const auto& evaluated : evaluations.estimates) print_doubts(evaluations, evaluated);
   const auto failed = std::count_if(evaluations.estimates.begin(), evaluations.estimates.end(),
                                     [](const auto& e) { return e.result.status != EvaluationStatus::ok; });

@@ -72,9 +72,8 @@ void print_one(const Evaluations& evaluations) {
   const auto& [path, estimate, result] = evaluations.estimates.front();
   const EvaluateArguments& arguments = evaluations.arguments;
   const std::size_t pairs = result.pairs.size();
-  fmt::print("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), stamps within {} s\n", pairs,
-             percent(pairs, estimate.size()), percent(pairs, evaluations.reference.size()),
-             arguments.options.max_gap_s);
+  fmt::print("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), {}\n", pairs, percent(pairs, estimate.size()),
+             percent(pairs, evaluations.reference.size()), describe_pairing(arguments));
   fmt::print("alignment  {}\n", describe_alignment(arguments, result));
   if (result.sim3.ate_m) fmt::print("scale      {:.6f} by sim3\n", result.sim3.reference_from_estimate.scale);
   fmt::print("\n{:<16} {:>4} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "", "number", "rmse", "mean",
@@ -151,8 +150,8 @@ void print_several(const Evaluations& evaluations) {
   for (const auto& evaluated : evaluations.estimates)
     if (const auto& ate_m = evaluated.result.absolute.ate_m) largest_m = std::max(largest_m, ate_m->max);
   const ShownUnit unit = unit_for(largest_m);
-  fmt::print("reference  {}, {} poses; stamps within {} s; all but ATE aligned by {}\n\n",
-             arguments.reference, evaluations.reference.size(), arguments.options.max_gap_s, arguments.align);
+  fmt::print("reference  {}, {} poses; {}; all but ATE aligned by {}\n\n", arguments.reference,
+             evaluations.reference.size(), describe_pairing(arguments), arguments.align);
   const auto [names, units] = head(arguments, unit);
   std::vector<Row> rows{names, units};
   for (const auto& evaluated : evaluations.estimates) rows.push_back(row_of(arguments, evaluated, unit));
@@ -160,6 +159,11 @@ void print_several(const Evaluations& evaluations) {
 }
 
 }  // namespace
+
+std::string describe_pairing(const EvaluateArguments& arguments) {
+  return arguments.has_times ? fmt::format("stamps within {} s", arguments.options.max_gap_s)
+                             : "by their order, as no file has time stamps";
+}
 
 ShownUnit unit_for(double largest_error_m) {
   constexpr double kFarM = 10;

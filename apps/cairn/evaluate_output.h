@@ -6,6 +6,7 @@
 
 #include "cairn/evaluate/evaluation.h"
 #include "common.h"
+#include "pose_arguments.h"
 
 namespace cairn::app {
 
@@ -13,6 +14,8 @@ struct EvaluateArguments {
   CommonOptions common;
   std::vector<std::string> estimates;
   std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
+  StampOffset offset;                    ///< added to the estimates' stamps
+  bool has_times = true;                 ///< false: poses pair by position or number, no file says a time
   std::vector<double> rpe_deltas = {1};  ///< in rpe_unit
   bool rpe_all_pairs = false;
   EvaluationOptions options;
@@ -39,6 +42,9 @@ void print_evaluations_json(const Evaluations& evaluations);
 void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated);
 /// The picture of --plot, an SVG file, of those that could be evaluated.
 [[nodiscard]] std::string draw_evaluations(const Evaluations& evaluations);
+
+/// By what poses pair: "stamps within 0.02 s", or their position where no file says a time.
+[[nodiscard]] std::string describe_pairing(const EvaluateArguments& arguments);
 
 /// "1 frame", "10 m", "0.5 s".
 [[nodiscard]] std::string name_of(const RpeOptions& options);

@@ -8,7 +8,8 @@
 namespace cairn::app {
 PosedSequence open_posed_sequence(const SequenceArguments& arguments, const PoseArguments& poses) {
   PosedSequence posed{open_sequence(arguments.folder, arguments.options()), {}};
-  posed.world_from_camera = poses_of_frames(posed.sequence, poses.options());
+  print_warnings(posed.sequence.report.warnings);
+  posed.world_from_camera = read_reported_poses(posed.sequence, poses);
   return posed;
 }
 

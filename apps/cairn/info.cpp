@@ -167,6 +167,7 @@ int run_info(int argc, char** argv) {
     return 0;
   }
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
+  print_warnings(sequence.report.warnings);
   (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration
   common.json ? print_json(sequence) : print_text(sequence);
   return 0;

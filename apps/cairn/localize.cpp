@@ -8,13 +8,13 @@
 #include "cairn/localize/localizer.h"
 #include "cairn/localize/motion_check.h"
 #include "cairn/map/map_view.h"
-#include "cairn/sequence/given_poses.h"
 #include "commands.h"
 #include "common.h"
 #include "localize_outputs.h"
 #include "localize_parameters.h"
 #include "localize_pictures.h"
 #include "localize_query.h"
+#include "pose_arguments.h"
 
 namespace cairn::app {
 namespace {
@@ -24,7 +24,8 @@ constexpr const char* kFollow = "last";  // for --prior: where the image before 
 struct LocalizeArguments {
   CommonOptions common;
   SequenceArguments sequence;
-  std::string map, output, prior;
+  PoseArguments prior;
+  std::string map, output;
   bool mono = false, any_camera = false, draw = false;
 };
 
@@ -34,10 +35,11 @@ void declare(CLI::App& app, LocalizeArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
       ->type_name("RUN")
       ->required();
-  app.add_option("--prior", arguments.prior,
+  app.add_option("--prior", arguments.prior.path,
                  "where the images are thought to be: a trajectory in the map's world, or 'last': where the "
                  "image before was found")
       ->type_name("FILE|last");
+  add_pose_time_options(app, arguments.prior);
   app.add_flag("--mono", arguments.mono, "without depth and right images");
   app.add_flag("--any-camera", arguments.any_camera, "the images need not be of the map's camera");
   app.add_flag("--draw", arguments.draw, "a picture for each image in RUN/pictures");
@@ -139,8 +141,8 @@ int exit_code(const std::vector<LocalizedImage>& images) {
 /// Where each image is thought to be, from a file; nothing where none is given.
 std::vector<std::optional<WorldFromCamera>> read_priors(const LocalizeArguments& arguments,
                                                         const Sequence& sequence) {
-  if (arguments.prior.empty() || arguments.prior == kFollow) return {};
-  return poses_of_frames(sequence, {.path = arguments.prior});
+  if (arguments.prior.path.empty() || arguments.prior.path == kFollow) return {};
+  return read_reported_poses(sequence, arguments.prior);
 }
 
 /// All images, as long as no one asks to stop.
@@ -183,7 +185,7 @@ int run_localize(int argc, char** argv) {
                           observer_options_for(map.info(), parameters.features, parameters.contrast));
   const Localizer localizer(map, camera, parameters.localize);
   LocalizeRun run(localizer, frontend, parameters.localize.trust, read_priors(arguments, sequence),
-                  arguments.prior == kFollow);
+                  arguments.prior.path == kFollow);
   run_all(run, sequence, executor, *progress);
   check.wait();
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());

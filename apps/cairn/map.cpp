@@ -89,7 +89,9 @@ int run_map(int argc, char** argv) {
   MapParameters parameters = gather_parameters(arguments);
   const std::string settings = parameters.table().format();
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
+  print_warnings(sequence.report.warnings);
   const GivenPoses poses = read_given_poses(sequence, arguments.poses.options());
+  print_warnings(poses.warnings);
   OutputFolder folder(arguments.output, "map", has_unfinished_survey);
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);

@@ -1,33 +1,71 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_arguments.h"
 
+#include <fmt/format.h>
+
+#include "cairn/core/text.h"
 #include "common.h"
 
 namespace cairn::app {
 
+namespace {
+
+constexpr double kLongest = 9e9;  // seconds
+
+}  // namespace
+
+double StampOffset::seconds() const {
+  double value = 0;
+  return parse_number(text, value) ? value : 0;
+}
+
+void add_stamp_offset(CLI::App& app, const std::string& name, const std::string& what, StampOffset& offset) {
+  const CLI::Validator number = number_in(-kLongest, kLongest);
+  const auto complaint = [number](std::string& text) -> std::string {
+    if (text == "start" || number(text).empty()) return "";
+    return fmt::format("'{}' is no number from {:g} to {:g}, nor 'start'", text, -kLongest, kLongest);
+  };
+  app.add_option(name, offset.text,
+                 "seconds to add to the stamps of " + what + "; start: so that the first stamps agree")
+      ->type_name("S|start")
+      ->check(CLI::Validator(complaint, ""))
+      ->capture_default_str();
+}
+
 GivenPosesOptions PoseArguments::options() const {
   GivenPosesOptions options;
   options.path = path;
-  options.time_offset_s = time_offset_s;
+  options.time_offset_s = time_offset.seconds();
+  options.align_first_stamps = time_offset.is_start();
   options.max_gap_s = max_gap_s;
   return options;
 }
 
 void add_pose_options(CLI::App& app, PoseArguments& arguments) {
-  constexpr double kLongest = 9e9;
   app.add_option(
          "--poses", arguments.path,
          "poses: TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md (default: the sequence's own)")
       ->type_name("FILE");
-  app.add_option("--pose-offset", arguments.time_offset_s, "seconds to add to the stamps of the poses")
-      ->type_name("S")
-      ->check(number_in(-kLongest, kLongest))
-      ->capture_default_str();
+  add_pose_time_options(app, arguments);
+}
+
+void add_pose_time_options(CLI::App& app, PoseArguments& arguments) {
+  add_stamp_offset(app, "--pose-offset", "the poses", arguments.time_offset);
   app.add_option("--pose-gap", arguments.max_gap_s,
                  "seconds; between two poses further apart a frame gets none")
       ->type_name("S")
       ->check(number_in(0, kLongest))
       ->capture_default_str();
+}
+
+std::vector<std::optional<WorldFromCamera>> read_reported_poses(const Sequence& sequence,
+                                                                const PoseArguments& arguments) {
+  const GivenPoses given = read_given_poses(sequence, arguments.options());
+  print_warnings(given.warnings);
+  std::vector<std::optional<WorldFromCamera>> poses;
+  for (const auto& pose : given.frames)
+    poses.push_back(pose ? std::optional(pose->world_from_camera) : std::nullopt);
+  return poses;
 }
 
 }  // namespace cairn::app

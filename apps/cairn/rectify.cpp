@@ -42,6 +42,7 @@ int run_rectify(int argc, char** argv) {
   app.footer("Example: cairn rectify V1_01_easy -o rectified");
   if (const auto code = parse(app, argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
+  print_warnings(sequence.report.warnings);
   OutputFolder folder(output, "sequence");
   const auto progress = make_progress(common);
   const RectifiedReport report =

@@ -100,6 +100,7 @@ int run_slam(int argc, char** argv) {
   const Stopwatch watch;
   SlamParameters parameters = gather_parameters(arguments);
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
+  print_warnings(sequence.report.warnings);
   const bool has_depth = sequence.calibration.depth.has_value();  // stereo has none to fuse
   const SlamOutputs wanted{has_depth && !arguments.no_cloud, has_depth && !arguments.no_octree};
   OutputFolder folder(arguments.output, "run");

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "cairn/core/error.h"
 #include "cairn/core/text.h"
-#include "cairn/sequence/sequence.h"
 
 namespace cairn::app {
 namespace {
@@ -23,30 +22,21 @@ std::string time_range(const Trajectory& trajectory) {
 
 }  // namespace
 
-Trajectory read_estimate(const fs::path& path) {
-  if (!fs::is_directory(path)) return read_tum_trajectory(path);
-  const fs::path inside = path / "trajectory.txt";
-  if (fs::exists(inside)) return read_tum_trajectory(inside);
-  throw InputError({path.string(), 0, "a trajectory file, or a run's folder with trajectory.txt",
-                    "a folder without one", "Name the file that holds the trajectory."});
-}
-
-Trajectory read_reference(const fs::path& path, const std::string& camera) {
-  if (!fs::is_directory(path) || fs::exists(path / "run.json")) return read_estimate(path);
-  SequenceOptions options;
-  options.camera = camera;
-  const Sequence sequence = open_sequence(path, options);
-  if (sequence.truth && !sequence.truth->empty()) return *sequence.truth;
-  throw InputError({path.string(), 0, "a sequence with true poses", fmt::format("none ({})", sequence.format),
-                    "Name a trajectory file as REF."});
-}
-
 std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference, double max_gap_s) {
   return fmt::format(
       "no pose of EST is within {} s of a pose of REF.\n  EST {}\n  REF {}\n"
-      "  If the times overlap, raise --max-gap; if not, the clocks differ or the files do not belong "
-      "together.",
-      max_gap_s, time_range(estimate), time_range(reference));
+      "  If the times overlap, raise --max-gap; if only the clocks differ, add --offset {}, or --offset "
+      "start, "
+      "which align\n  the first stamps; else the files do not belong together.",
+      max_gap_s, time_range(estimate), time_range(reference),
+      format_seconds(offset_of_starts(estimate, reference)));
+}
+
+std::int64_t offset_of_starts(const Trajectory& estimate, const Trajectory& reference) {
+  std::int64_t offset_ns = 0;
+  const bool is_too_far =
+      __builtin_sub_overflow(reference.front().stamp_ns, estimate.front().stamp_ns, &offset_ns);
+  return is_too_far ? 0 : offset_ns;
 }
 
 std::string_view explain(AlignmentStatus status) {

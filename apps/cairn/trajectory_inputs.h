@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -13,14 +13,11 @@ namespace cairn::app {
 
 /// What the commands that compare trajectories share.
 
-/// A trajectory file, or the one of a run's folder.
-[[nodiscard]] Trajectory read_estimate(const std::filesystem::path& path);
-/// A trajectory file, the one of a run, or a sequence's truth; `camera` as --camera has it.
-[[nodiscard]] Trajectory read_reference(const std::filesystem::path& path, const std::string& camera);
-
 /// Why no two poses are near in time, and what to do; some lines for stderr.
 [[nodiscard]] std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference,
                                            double max_gap_s);
+/// What makes the first stamps agree if it is added to the estimate's, nanoseconds.
+[[nodiscard]] std::int64_t offset_of_starts(const Trajectory& estimate, const Trajectory& reference);
 /// Why there is no alignment; part of a sentence, empty for ok.
 [[nodiscard]] std::string_view explain(AlignmentStatus status);
 /// The same in one word, for JSON.

@@ -25,6 +25,18 @@ def body_sequence(root):
     file("seq/camera.yaml", CAMERA + BODY)(root)
 
 
+def repeated(third):
+    """The truth with its second row again, x as given."""
+    return replaced("seq/groundtruth.txt", "1.100000 0.0100 0.0010 0 0 0 0 1\n",
+                    f"1.100000 0.0100 0.0010 0 0 0 0 1\n1.100000 {third} 0.0010 0 0 0 0 1\n")
+
+
+NO_FIX = TABLE.replace("1.0,49,8,100", "1.0,0,0,0")
+JUMP = TABLE.replace("1.2,49,8", "1.2,49.01,8")
+NAMED = "# frame_id, translation_x, translation_y, translation_z, quat_x, quat_y, quat_z, quat_w, scale, fusion_quality, v3\n" + "".join(
+    f"{t}000000,0,0,0,0,0,0,1,1,1,1\n" for t in (1000, 1100, 1200))
+LATER_CLOCK = "".join(f"{1317042145.594 + t:.3f} 0 0 0 0 0 0 1\n" for t in (0, 0.1, 0.2))
+
 CASES = [
     Case("a good sequence", "info seq", given=(SEQ,), code=0, prints=("TUM", "frames       3")),
     Case("frames as slices", "info seq --frames 0:2", given=(SEQ,), code=0, prints=("frames       2",)),
@@ -101,6 +113,36 @@ CASES = [
     Case("OXTS packets without times", "info seq", given=(SEQ, file("seq/oxts/data/0000000000.txt", "")), code=0, prints=("truth        3 poses",)),
     Case("info of OXTS packets", "info seq", given=(SEQ, file("seq/oxts/data/0000000000.txt", ""), file("seq/oxts/timestamps.txt", "")),
          code=0, prints=("poses        OXTS packets in seq/oxts",)),
+    Case("truth with equal rows", "info seq", given=(SEQ, repeated("0.0100")), code=0, prints=("truth        3 poses",)),
+    Case("truth with unequal rows at a stamp", "info seq",
+         ("cairn: seq/groundtruth.txt:3: a second pose, 0.01 m away, at 1.100000000; 1 such line left out, the first pose counts.",),
+         (SEQ, repeated("0.0200")), code=0, prints=("truth        3 poses",)),
+    Case("poses with equal rows", "cloud seq --poses p.csv -o a.ply --json", given=(body_sequence, file("p.csv", TABLE + TABLE.splitlines()[-1] + "\n")),
+         code=0, leaves=("a.ply",), prints=('"fused": 3',)),
+    Case("poses with named columns", "cloud seq --poses p.csv -o a.ply --json",
+         ("cairn: p.csv: its columns do not say whose poses they are: taken as the camera's",), (SEQ, file("p.csv", NAMED)), code=0,
+         leaves=("a.ply",), prints=('"fused": 3',)),
+    Case("poses whose quaternion is numbered", "cloud seq --poses p.csv -o a.ply",
+         ("p.csv:1: expected the quaternion's columns by the names qx, qy, qz, qw, found q0, q1, q2, q3",),
+         (SEQ, file("p.csv", "time,x,y,z,q0,q1,q2,q3\n1.0,0,0,0,1,0,0,0\n"))),
+    Case("poses whose quaternion is incomplete", "cloud seq --poses p.csv -o a.ply", ("p.csv:1: expected 'qw' among the columns",),
+         (SEQ, file("p.csv", "time,x,y,z,qx,qy,qz\n1.0,0,0,0,1,0,0\n"))),
+    Case("poses before a fix", "cloud seq --poses p.csv -o a.ply --json",
+         ("cairn: p.csv:2: 1 of 3 rows left out, from 1.000000000 on: no position (0 north and 0 east, empty or no number).",),
+         (body_sequence, file("p.csv", NO_FIX)), code=0, leaves=("a.ply",), prints=('"fused": 2', '"without_pose": 1')),
+    Case("poses without any fix", "cloud seq --poses p.csv -o a.ply", ("p.csv: expected rows with a position, found 3 with no position",),
+         (body_sequence, file("p.csv", TABLE.replace("49,8,100", "0,0,0")))),
+    Case("poses that jump", "cloud seq --poses p.csv -o a.ply",
+         ("cairn: p.csv:4: the position jumps by 1112.", "within 0.1 s, at 1.200000000, faster than any vehicle; 1 such jump"),
+         (body_sequence, file("p.csv", JUMP)), code=0, leaves=("a.ply",)),
+    Case("poses of another clock", "cloud seq --poses p.txt -o a.ply",
+         ("p.txt: expected poses within", "add --pose-offset -1317042144.594, or --pose-offset start"), (SEQ, file("p.txt", LATER_CLOCK))),
+    Case("poses of another clock, aligned", "cloud seq --poses p.txt --pose-offset start -o a.ply --json",
+         ("cairn: p.txt: the first stamps are aligned by an offset of -1317042144.594 s.",), (SEQ, file("p.txt", LATER_CLOCK)), code=0,
+         leaves=("a.ply",), prints=('"fused": 3',)),
+    Case("poses of another clock, shifted", "cloud seq --poses p.txt --pose-offset -1317042144.594 -o a.ply --json",
+         given=(SEQ, file("p.txt", LATER_CLOCK)), code=0, leaves=("a.ply",), prints=('"fused": 3',)),
+    Case("offset that is none", "cloud seq --pose-offset begin -o a.ply", ("--pose-offset", "'begin' is no number"), (SEQ,)),
     Case("empty poses", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected poses, one a line",), (SEQ, file("p.txt", "# none\n"))),
     Case("sequence without poses", "cloud seq -o a.ply", ("Give --poses FILE",), (SEQ, without("seq/groundtruth.txt"))),
     # outputs

@@ -3,7 +3,7 @@
 """Bad trajectories, and such as do not determine what is asked, for evaluate and align."""
 
 from harness import Case, main
-from inputs import file, folder, trajectory
+from inputs import file, folder, trajectory, tum_sequence
 
 POSES = (trajectory("a.txt"), trajectory("b.txt"))
 
@@ -26,6 +26,24 @@ NEAR_LINE = [(i, 1e-3 * (i * 7 % 5), 1e-3 * (i * 3 % 4)) for i in range(20)]
 NEAR_OTHER_LINE = [(i, 1e-3 * (i * 5 % 7), 1e-3 * (i * 2 % 3)) for i in range(20)]
 AXES = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
 LATER = places("late.txt", BEND, begin=900)
+
+
+
+def kitti(name, rows):
+    """The places as KITTI's matrices, without time."""
+    return file(name, "".join(f"1 0 0 {x} 0 1 0 {y} 0 0 1 {z}\n" for x, y, z in rows))
+
+
+def euroc(name, rows, begin=1.0):
+    return file(name, "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n" + "".join(
+        f"{round(1e9 * (begin + 0.1 * i))},{x},{y},{z},1,0,0,0\n" for i, (x, y, z) in enumerate(rows)))
+
+
+def geodetic(name, count):
+    """A bend, of a body that looks north."""
+    return file(name, "time,latitude,longitude,height,roll,pitch,heading\n" + "".join(
+        f"{1 + 0.1 * i:.1f},{49 + 1e-5 * i:.6f},{8 + 1e-6 * i * i:.7f},{100 + 0.1 * i * i:.2f},0,0,0\n" for i in range(count)))
+
 
 CASES = [
     Case("evaluate", "evaluate a.txt b.txt", given=POSES, code=0, prints=("ATE se3", "ATE sim3", "RPE 1 frame")),
@@ -58,6 +76,44 @@ CASES = [
          (*POSES, folder("run"))),
     Case("picture into a missing folder", "evaluate a.txt b.txt --plot no/a.svg", ("no/a.svg: expected to create the file",), POSES),
     # what does not determine an answer
+    # formats
+    Case("files of KITTI", "evaluate a.txt b.txt", given=(kitti("a.txt", BEND), kitti("b.txt", BEND)), code=0,
+         prints=("pairs      4 (100.0 % of EST, 100.0 % of REF), by their order, as no file has time stamps", "ATE se3")),
+    Case("file of KITTI and one with stamps", "evaluate a.txt b.txt --json", given=(kitti("a.txt", BEND), places("b.txt", BEND)), code=0,
+         prints=('"pairs": 4', '"unit": "seconds"')),
+    Case("file with stamps and one of KITTI", "evaluate a.txt b.txt --json", given=(places("a.txt", BEND), kitti("b.txt", BEND)), code=0,
+         prints=('"pairs": 4', '"unit": "seconds"')),
+    Case("files of KITTI of other lengths", "evaluate a.txt b.txt",
+         ("a.txt: expected poses that pair with those of b.txt: 4 poses without time stamps, found 3 poses without time stamps",),
+         (kitti("a.txt", BEND[:3]), kitti("b.txt", BEND))),
+    Case("file of KITTI shorter than one with stamps", "evaluate a.txt b.txt", ("a.txt: expected poses that pair with those of b.txt: 4 poses with time",),
+         (kitti("a.txt", BEND[:3]), places("b.txt", BEND))),
+    Case("files of KITTI have no seconds", "evaluate a.txt b.txt --rpe-unit seconds", ("--rpe-unit: expected frames or metres, as no file has time stamps",),
+         (kitti("a.txt", BEND), kitti("b.txt", BEND))),
+    Case("file of KITTI and a sequence", "evaluate a.txt seq --json", given=(tum_sequence(), kitti("a.txt", BEND[:3])), code=0, prints=('"pairs": 3',)),
+    Case("file of KITTI that does not fit a sequence", "evaluate a.txt seq", ("a.txt: expected poses that pair with those of seq",),
+         (tum_sequence(), kitti("a.txt", BEND[:2]))),
+    Case("file of EuRoC", "evaluate a.csv b.txt --json", given=(euroc("a.csv", BEND), places("b.txt", BEND)), code=0, prints=('"pairs": 4',)),
+    Case("file of EuRoC as the truth", "evaluate b.txt a.csv --json", given=(euroc("a.csv", BEND), places("b.txt", BEND)), code=0, prints=('"pairs": 4',)),
+    Case("stamps in nanoseconds", "evaluate a.txt b.csv --json",
+         given=(file("a.txt", "".join(f"{1403636579763555584 + 10**8 * i}.000000 {x} {y} {z} 0 0 0 1\n" for i, (x, y, z) in enumerate(BEND))),
+                file("b.csv", "timestamp,x,y,z,qx,qy,qz,qw\n" + "".join(
+                    f"{1403636579763555584 + 10**8 * i},{x},{y},{z},0,0,0,1\n" for i, (x, y, z) in enumerate(BEND)))),
+         code=0, prints=('"pairs": 4',)),
+    Case("geodetic tables", "evaluate a.csv b.csv --align none --json", given=(geodetic("a.csv", 5), geodetic("b.csv", 6)), code=0,
+         prints=('"pairs": 5', '"ate_rmse_m": 0.0')),
+    Case("repeated stamps", "evaluate a.txt b.txt --json",
+         ("cairn: a.txt:2: a second pose, 1 m away, at 1.000000000; 1 such line left out, the first pose counts.",),
+         (file("a.txt", "1.0 0 0 0 0 0 0 1\n1.0 1 0 0 0 0 0 1\n1.1 1 0.1 0 0 0 0 1\n1.2 2 0.4 0.1 0 0 0 1\n"), places("b.txt", BEND)), code=0,
+         prints=('"pairs": 3',)),
+    Case("another clock", "evaluate late.txt b.txt", ("add --offset -899.0, or --offset start",), (*POSES, LATER), code=1),
+    Case("another clock, aligned", "evaluate late.txt b.txt --offset start --json",
+         ("cairn: late.txt: the first stamps are aligned by an offset of -899.0 s.",), (places("b.txt", BEND), LATER), code=0, prints=('"pairs": 4',)),
+    Case("another clock, shifted", "evaluate late.txt b.txt --offset -899 --json", given=(places("b.txt", BEND), LATER), code=0, prints=('"pairs": 4',)),
+    Case("align files of KITTI", "align a.txt b.txt", given=(kitti("a.txt", BEND), kitti("b.txt", [(x + 5, y, z) for x, y, z in BEND])), code=0,
+         prints=("\nt            5.000000000   0.000000000   0.000000000  m",)),
+    Case("align a file of EuRoC", "align a.csv b.txt --offset start", ("aligned by an offset of -99.0 s",),
+         (euroc("a.csv", BEND, 100.0), places("b.txt", BEND)), code=0, prints=("0.000000000 m after",)),
     Case("nothing to compare", "evaluate late.txt b.txt", ("no pose of EST is within 0.02 s of a pose of REF", "REF 1.0", "raise --max-gap"),
          (*POSES, LATER), code=1),
     Case("nothing to compare for one of several", "evaluate a.txt late.txt b.txt", ("late.txt: no pose of EST is within",),

@@ -62,10 +62,10 @@ void pair_images(const fs::path& root, double max_gap_s, Sequence& sequence) {
 }
 
 /// Poses of the left camera, before rectification.
-Trajectory read_truth(const fs::path& poses, const Rigid3& body_from_left) {
-  Trajectory truth;
-  for (const auto& [stamp_ns, world_from_body] : read_asl_poses(poses))
-    truth.push_back({stamp_ns, WorldFromCamera(world_from_body * body_from_left)});
+Trajectory read_truth_of_left(const fs::path& poses, const Rigid3& body_from_left, SequenceReport& report) {
+  Trajectory truth = read_truth(poses, true, report);
+  for (StampedPose& pose : truth)
+    pose.world_from_camera = WorldFromCamera(pose.world_from_camera * body_from_left);
   return truth;
 }
 
@@ -90,7 +90,8 @@ void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence
     sequence.calibration_source = fmt::format("{} and cam1", left.string());
   }
   const fs::path truth = root / "state_groundtruth_estimate0/data.csv";
-  if (fs::exists(truth)) sequence.truth = read_truth(truth, read_body_from_sensor(left));
+  if (fs::exists(truth))
+    sequence.truth = read_truth_of_left(truth, read_body_from_sensor(left), sequence.report);
 }
 
 }  // namespace cairn

@@ -9,6 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/sequence/time_unit.h"
 
 namespace cairn {
 
@@ -50,10 +51,13 @@ std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
 
 bool has_frame_numbers(const fs::path& path) {
   const TextFile file(path);
-  return std::all_of(file.lines().begin(), file.lines().end(), [](const TextLine& line) {
+  std::vector<std::string_view> first;
+  for (const TextLine& line : file.lines()) first.push_back(line.fields.front());
+  const bool are_whole = std::all_of(first.begin(), first.end(), [](std::string_view text) {
     std::int64_t number = 0;
-    return parse_integer(line.fields[0], number);
+    return parse_integer(text, number);
   });
+  return are_whole && infer_time_unit(first) == TimeUnit::second;
 }
 
 }  // namespace cairn

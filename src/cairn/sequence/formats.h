@@ -43,6 +43,12 @@ void list_numbered(const std::filesystem::path& folder, const SequenceOptions& o
 /// more than an int64 of nanoseconds holds.
 [[nodiscard]] std::int64_t stamp_of_number(std::int64_t number, double rate_hz);
 
+/// Reads the true poses of a sequence, of any format with stamps (docs/poses.md), as the file states them.
+/// Warnings go to the report. InputError for poses without stamps, and for those of a body unless
+/// `is_of_body`.
+[[nodiscard]] Trajectory read_truth(const std::filesystem::path& path, bool is_of_body,
+                                    SequenceReport& report);
+
 /// A TUM trajectory file whose first column holds whole numbers only: frame numbers, not seconds.
 [[nodiscard]] bool has_frame_numbers(const std::filesystem::path& path);
 

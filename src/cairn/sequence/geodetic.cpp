@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/sequence/geodetic.h"
 
+#include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/LocalCartesian.hpp>
+#include <cmath>
 
 #include "cairn/core/error.h"
 
@@ -20,6 +22,21 @@ void move_to_origin(const GeodeticOrigin& origin, RecordedPoses& recorded) {
     pose.rotation_covariance = turn * pose.rotation_covariance * turn.transpose();
   }
   recorded.geodetic = false;
+}
+
+double geodetic_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const auto earth_centred = [](const Eigen::Vector3d& place) {
+    Eigen::Vector3d point;
+    GeographicLib::Geocentric::WGS84().Forward(place.x(), place.y(), place.z(), point.x(), point.y(),
+                                               point.z());
+    return point;
+  };
+  return (earth_centred(a) - earth_centred(b)).norm();
+}
+
+bool is_without_fix(const Eigen::Vector3d& place) {
+  constexpr double kRounding = 1e-7;  // degrees, a centimetre
+  return std::abs(place.x()) < kRounding && std::abs(place.y()) < kRounding;
 }
 
 }  // namespace cairn

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cairn/core/error.h"
 #include "cairn/sequence/geodetic.h"
+#include "cairn/sequence/pose_jumps.h"
 #include "cairn/sequence/recorded_poses.h"
+#include "cairn/sequence/time_unit.h"
 
 namespace cairn {
 namespace {
@@ -60,18 +63,41 @@ TimeRules rules_for(const Sequence& sequence, const RecordedPoses& recorded,
   constexpr std::uint64_t kRoundedStampNs = 1'000'000;
   const bool exact = recorded.key != PoseKey::stamp || (recorded.format == "truth" && !has_clock(sequence));
   if (!exact) return {static_cast<std::uint64_t>(std::llround(options.max_gap_s * 1e9)), kRoundedStampNs};
-  if (options.time_offset_s == 0) return {};
+  if (options.time_offset_s == 0 && !options.align_first_stamps) return {};
   throw InputError({"time_offset_s", 0, "0, as these poses belong to frames by their numbers",
-                    fmt::format("{}", options.time_offset_s), "Leave it out."});
+                    options.align_first_stamps ? "start" : fmt::format("{}", options.time_offset_s),
+                    "Leave it out."});
 }
 
-void shift_stamps(double offset_s, RecordedPoses& recorded) {
-  const std::int64_t offset_ns = std::llround(offset_s * 1e9);
+/// a + b, or the int64 nearest to it: stamps that far off are refused when they are shifted.
+std::int64_t saturated_sum(std::int64_t a, std::int64_t b) {
+  std::int64_t sum = 0;
+  if (!__builtin_add_overflow(a, b, &sum)) return sum;
+  return b < 0 ? std::numeric_limits<std::int64_t>::min() : std::numeric_limits<std::int64_t>::max();
+}
+
+/// From the first pose's stamp to that of the recording's first frame.
+std::int64_t offset_of_starts(const Sequence& sequence, const RecordedPoses& recorded) {
+  const std::int64_t frame = sequence.first_stamp_ns.value_or(sequence.frames.front().stamp_ns);
+  return saturated_sum(frame, -recorded.first_key.value_or(recorded.poses.front().key));
+}
+
+/// Returns the offset that was added, nanoseconds.
+std::int64_t shift_stamps(const Sequence& sequence, const GivenPosesOptions& options,
+                          RecordedPoses& recorded) {
+  const bool by_starts = options.align_first_stamps;
+  const std::int64_t offset_ns =
+      by_starts ? offset_of_starts(sequence, recorded) : std::llround(options.time_offset_s * 1e9);
   for (RecordedPose& pose : recorded.poses) {
     if (!__builtin_add_overflow(pose.key, offset_ns, &pose.key)) continue;
     throw InputError({"time_offset_s", 0, "an offset that leaves the stamps within 292 years of 1970",
-                      fmt::format("{}", offset_s), "Mend the value."});
+                      fmt::format("{}", options.time_offset_s), "Mend the value."});
   }
+  if (recorded.first_key) recorded.first_key = saturated_sum(*recorded.first_key, offset_ns);
+  if (by_starts)
+    recorded.warnings.push_back(fmt::format("{}: the first stamps are aligned by an offset of {} s.",
+                                            recorded.source.string(), format_seconds(offset_ns)));
+  return offset_ns;
 }
 
 std::int64_t key_of(const FrameFiles& files, PoseKey key) {
@@ -117,11 +143,26 @@ std::optional<PoseSpan> find_span(const std::vector<RecordedPose>& poses, std::i
 
 using PoseSpans = std::vector<std::optional<PoseSpan>>;
 
+/// What to do where the poses are of other times than the frames. `shifted_s` was added to their stamps.
+std::string remedy_for_times(const Sequence& sequence, const RecordedPoses& recorded, double shifted_s) {
+  const auto& frames = sequence.frames;
+  const auto& poses = recorded.poses;
+  if (poses.front().key <= frames.back().stamp_ns && poses.back().key >= frames.front().stamp_ns)
+    return "The times overlap: raise --pose-gap, or check that the poses belong to this sequence.";
+  const std::int64_t offset_ns =
+      saturated_sum(offset_of_starts(sequence, recorded), std::llround(shifted_s * 1e9));
+  return fmt::format(
+      "If only the clocks differ, add --pose-offset {}, or --pose-offset start, which align the first "
+      "stamps; "
+      "else check that the poses belong to this sequence and share its clock.",
+      format_seconds(offset_ns));
+}
+
 [[noreturn]] void fail_without_poses(const Sequence& sequence, const RecordedPoses& recorded,
-                                     const GivenPosesOptions& options) {
-  const char* const remedy = "Check that the poses belong to this sequence and share its clock.";
+                                     const GivenPosesOptions& options, double shifted_s) {
   if (recorded.key == PoseKey::number)
-    throw InputError({recorded.source.string(), 0, "poses of the sequence's frame numbers", "none", remedy});
+    throw InputError({recorded.source.string(), 0, "poses of the sequence's frame numbers", "none",
+                      "Check that the poses belong to this sequence."});
   throw InputError(
       {recorded.source.string(), 0,
        fmt::format("poses within the time of the frames, {} to {}, at most {} s apart",
@@ -129,18 +170,18 @@ using PoseSpans = std::vector<std::optional<PoseSpan>>;
                    format_stamp(sequence.frames.back().stamp_ns), options.max_gap_s),
        fmt::format("{} from {} to {}", recorded.poses.size(), format_stamp(recorded.poses.front().key),
                    format_stamp(recorded.poses.back().key)),
-       remedy});
+       remedy_for_times(sequence, recorded, shifted_s)});
 }
 
 PoseSpans spans_of_frames(const Sequence& sequence, const RecordedPoses& recorded,
-                          const GivenPosesOptions& options) {
+                          const GivenPosesOptions& options, double shifted_s) {
   const TimeRules rules = rules_for(sequence, recorded, options);
   PoseSpans spans;
   for (const FrameFiles& files : sequence.frames)
     spans.push_back(find_span(recorded.poses, key_of(files, recorded.key), rules));
   const bool has_some =
       std::any_of(spans.begin(), spans.end(), [](const auto& span) { return span.has_value(); });
-  if (!has_some) fail_without_poses(sequence, recorded, options);
+  if (!has_some) fail_without_poses(sequence, recorded, options, shifted_s);
   return spans;
 }
 
@@ -167,8 +208,9 @@ std::size_t first_used(const PoseSpans& spans) {
 
 /// Where the camera sits on what the poses are of.
 Rigid3 subject_from_camera(const Sequence& sequence, const RecordedPoses& recorded) {
-  if (recorded.subject == PoseSubject::camera) return {};
   const Calibration& calibration = sequence.calibration;
+  const bool is_open = recorded.subject == PoseSubject::not_stated;
+  if (recorded.subject == PoseSubject::camera || (is_open && !calibration.body_from_camera)) return {};
   if (calibration.body_from_camera)
     return body_from_loaded_camera(calibration, *calibration.body_from_camera);
   const bool is_down = recorded.subject == PoseSubject::body_forward_right_down;
@@ -184,6 +226,15 @@ Rigid3 subject_from_camera(const Sequence& sequence, const RecordedPoses& record
            "{{body_from_camera: {{translation: [0, 0, 0], quaternion_xyzw: {}}}}} (body: x forward, {}).",
            is_down ? "[0.5, 0.5, 0.5, 0.5]" : "[-0.5, 0.5, -0.5, 0.5]",
            is_down ? "y right, z down" : "y left, z up")});
+}
+
+void warn_of_open_subject(const Sequence& sequence, const RecordedPoses& recorded, GivenPoses& given) {
+  if (recorded.subject != PoseSubject::not_stated) return;
+  const bool is_of_body = sequence.calibration.body_from_camera.has_value();
+  given.warnings.push_back(fmt::format(
+      "{}: its columns do not say whose poses they are: taken as {}, as the calibration {} 'body: "
+      "{{body_from_camera: ...}}'.",
+      recorded.source.string(), is_of_body ? "the body's" : "the camera's", is_of_body ? "has" : "has no"));
 }
 
 RecordedPose interpolate(const RecordedPose& a, const RecordedPose& b, double t) {
@@ -223,10 +274,13 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
       options.path.empty() ? own_poses(sequence) : read_recorded_poses(options.path, !has_clock(sequence));
   const Rigid3 body_from_camera = subject_from_camera(sequence, recorded);
   expect_one_for_each_frame(sequence, recorded);
-  if (recorded.key == PoseKey::stamp) shift_stamps(options.time_offset_s, recorded);
-  const PoseSpans spans = spans_of_frames(sequence, recorded, options);
   GivenPoses given;
+  if (recorded.key == PoseKey::stamp)
+    given.time_offset_s = 1e-9 * static_cast<double>(shift_stamps(sequence, options, recorded));
+  const PoseSpans spans = spans_of_frames(sequence, recorded, options, given.time_offset_s);
   given.format = recorded.format;
+  given.warnings = recorded.warnings;
+  warn_of_open_subject(sequence, recorded, given);
   if (recorded.geodetic) {
     given.origin = options.origin.value_or(origin_at(recorded.poses[first_used(spans)].place));
     move_to_origin(*given.origin, recorded);
@@ -239,6 +293,9 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
     else
       ++given.without_pose;
   }
+  // where the reader of the file knew no times
+  if (recorded.key != PoseKey::stamp || (recorded.format == "truth" && !has_clock(sequence)))
+    warn_of_jumps(recorded.source.string(), sequence, given);
   return given;
 }
 

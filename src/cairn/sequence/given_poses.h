@@ -32,6 +32,8 @@ struct GivenPose {
 struct GivenPosesOptions {
   std::filesystem::path path;  ///< a file or a folder (docs/poses.md); empty: the sequence's own
   double time_offset_s = 0;    ///< added to the poses' stamps
+  /// Instead of time_offset_s: the first pose's stamp becomes that of the recording's first frame.
+  bool align_first_stamps = false;
   /// A frame between two poses further apart than this gets none. GNSS/INS gives 10 to 200 poses a second: at
   /// 10 a second jitter passes, a lost pose does not. Between two poses a vehicle that accelerates by 3 m/s^2
   /// leaves the line by at most 3/8 gap^2, 8 mm at this gap.
@@ -44,6 +46,8 @@ struct GivenPoses {
   std::size_t without_pose = 0;                  ///< frames that got none
   std::optional<GeodeticOrigin> origin;          ///< of geodetic poses
   std::string format;                            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table", "truth"
+  double time_offset_s = 0;                      ///< that was added to the poses' stamps
+  std::vector<std::string> warnings;             ///< what a person should know, a sentence each
 };
 
 /// The poses that a user names, or the sequence's own: its truth, else its OXTS packets. A frame gets the
@@ -52,8 +56,9 @@ struct GivenPoses {
 /// errors, since squares are convex); else, as stamps are often rounded, a pose within a millisecond. Files
 /// whose first column holds whole numbers belong to the frames of these numbers, except in sequences that
 /// have a clock (TUM, EuRoC), and KITTI's to the frames in their order. Where poses are of a body,
-/// Calibration says where the camera sits on it. InputError for whatever is wrong, and where no frame gets a
-/// pose.
+/// Calibration says where the camera sits on it; a table that does not say what its quaternions are of is
+/// taken as the body's if Calibration does, else as the camera's. InputError for whatever is wrong, and where
+/// no frame gets a pose.
 [[nodiscard]] GivenPoses read_given_poses(const Sequence& sequence, const GivenPosesOptions& options = {});
 
 /// Without what is known of them.

@@ -149,14 +149,21 @@ struct BrokenFile {
 };
 
 TEST_F(GivenPosesTest, broken_files_are_refused) {
-  const std::string clock = "Check that the poses belong to this sequence and share its clock.";
+  const std::string clock =
+      "If only the clocks differ, add --pose-offset -77.5, or --pose-offset start, which align the first "
+      "stamps; "
+      "else check that the poses belong to this sequence and share its clock.";
+  const std::string gap =
+      "The times overlap: raise --pose-gap, or check that the poses belong to this sequence.";
   const std::string within =
       ": expected poses within the time of the frames, 0.000000000 to 0.200000000, at most 0.15 s apart, "
       "found ";
   const BrokenFile cases[] = {
       {"77.5 0 0 0 0 0 0 1\n", within + "1 from 77.500000000 to 77.500000000.\n  " + clock},
-      {"0.05 0 0 0 0 0 0 1\n0.25 0 0 0 0 0 0 1\n", within + "2 from 0.050000000 to 0.250000000.\n  " + clock},
-      {"77 0 0 0 0 0 0 1\n", ": expected poses of the sequence's frame numbers, found none.\n  " + clock},
+      {"0.05 0 0 0 0 0 0 1\n0.25 0 0 0 0 0 0 1\n", within + "2 from 0.050000000 to 0.250000000.\n  " + gap},
+      {"77 0 0 0 0 0 0 1\n",
+       ": expected poses of the sequence's frame numbers, found none.\n  Check that the poses belong to this "
+       "sequence."},
       {"1 0 0 0\n", ":1: expected 8 values (t tx ty tz qx qy qz qw), found 4.\n  Mend or delete the line."},
       {"",
        ": expected poses, one a line: t tx ty tz qx qy qz qw, found none.\n  Check that this is the right "
@@ -168,10 +175,13 @@ TEST_F(GivenPosesTest, broken_files_are_refused) {
       {"1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0\n",
        ":2: expected 12 values (3x4 world_from_camera by rows), found 4.\n  Mend or delete the line."},
       {"1,2,3\n",
-       ":1: expected 8 values (stamp, px, py, pz, qw, qx, qy, qz, ...), found 3.\n  Mend or delete the "
+       ":1: expected 8 values (stamp, px, py, pz, qw, qx, qy, qz, ...), or a first line that names the "
+       "columns, found 3.\n  Add a line with the names of the columns (docs/poses.md)."},
+      {"1,0,0,0,1,0,0,0\n2,3\n",
+       ":2: expected 8 values (stamp, px, py, pz, qw, qx, qy, qz, ...), found 2.\n  Correct or delete the "
        "line."},
       {"1.5,0,0,0,1,0,0,0\n",
-       ":1: expected a time stamp in whole nanoseconds, found '1.5'.\n  Mend or delete the "
+       ":1: expected a time stamp in whole nanoseconds, found '1.5'.\n  Correct or delete the "
        "line."},
   };
   Sequence sequence = sequence_of("7-Scenes", {0, 1, 2}, 10);
@@ -194,9 +204,9 @@ TEST_F(GivenPosesTest, what_is_missing_is_said) {
                 "permissions.");
   EXPECT_EQ(message_of([&] { return read_given_poses(sequence, with(folder_)); }),
             folder_.string() +
-                ": expected poses: OXTS packets (data/ and timestamps.txt), or a data.csv as EuRoC's, found "
-                "a folder "
-                "without them.\n  Name the file or the folder that holds the poses.");
+                ": expected poses: OXTS packets (data/ and timestamps.txt), a data.csv as EuRoC's, or a "
+                "run's trajectory.txt, found a folder without them.\n  Name the file or the folder that "
+                "holds the poses.");
   const auto euroc = write("data.csv", "0,1,2,3,1,0,0,0\n");
   EXPECT_EQ(
       message_of([&] { return read_given_poses(sequence, with(euroc)); }),

@@ -12,6 +12,7 @@
 #include "cairn/core/text.h"
 #include "cairn/image/codec.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/trajectory_file.h"
 
 namespace cairn {
 namespace {
@@ -101,16 +102,22 @@ std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
                     fmt::format("{}", stamps.size()), "Add or delete lines, or images."});
 }
 
-Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& stamps) {
-  const TextFile file(path);
-  if (file.lines().size() != stamps.size()) {
+/// A pose for each image, or poses with stamps of their own.
+Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& stamps, SequenceReport& report) {
+  const TextFile text(path);
+  constexpr std::size_t kLeast = 8;  // of any other layout
+  const bool is_short = !text.lines().empty() && text.lines().front().fields.size() < kLeast;
+  double value = 0;
+  if (is_short && parse_number(text.lines().front().fields[0], value))
+    (void)parse_matrix_pose(text, text.lines().front());  // says what is expected
+  TrajectoryFile file = read_trajectory_file(path);
+  if (file.key == PoseKey::stamp) return read_truth(path, false, report);
+  if (file.poses.size() != stamps.size()) {
     throw InputError({path.string(), 0, fmt::format("{} poses, one for each image", stamps.size()),
-                      fmt::format("{}", file.lines().size()), "Add or delete lines, or remove the file."});
+                      fmt::format("{}", file.poses.size()), "Add or delete lines, or remove the file."});
   }
-  Trajectory trajectory;
-  for (std::size_t i = 0; i < stamps.size(); ++i)
-    trajectory.push_back({stamps[i], parse_matrix_pose(file, file.lines()[i])});
-  return trajectory;
+  for (std::size_t i = 0; i < stamps.size(); ++i) file.poses[i].stamp_ns = stamps[i];
+  return std::move(file.poses);
 }
 
 void read_calib(const fs::path& path, const fs::path& first_image, Sequence& sequence) {
@@ -142,7 +149,8 @@ void list_kitti(const fs::path& folder, Sequence& sequence) {
     sequence.frames.push_back({stamps[i], number, left[i], {}, right[i]});
   }
   if (sequence.calibration_source.empty()) read_calib(folder / "calib.txt", left[0], sequence);
-  if (fs::exists(folder / "poses.txt")) sequence.truth = read_poses(folder / "poses.txt", stamps);
+  if (fs::exists(folder / "poses.txt"))
+    sequence.truth = read_poses(folder / "poses.txt", stamps, sequence.report);
   sequence.report.color_images = sequence.report.right_images = static_cast<std::int64_t>(left.size());
   sequence.report.associated = sequence.report.color_images;
 }

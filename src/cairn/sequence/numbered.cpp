@@ -7,6 +7,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/trajectory_file.h"
 
 namespace cairn {
 namespace {
@@ -70,12 +71,14 @@ std::optional<FolderPair> folders(const fs::path& folder, const SequenceOptions&
   return std::nullopt;
 }
 
-void read_truth(const fs::path& path, Sequence& sequence) {
+void read_numbered_truth(const fs::path& path, Sequence& sequence) {
   if (!fs::exists(path) || !has_frame_numbers(path)) return;
-  Trajectory truth = read_tum_trajectory(path);
-  for (StampedPose& pose : truth)
-    pose.stamp_ns = stamp_of_number(pose.stamp_ns / 1'000'000'000, sequence.calibration.rate_hz);
-  sequence.truth = std::move(truth);
+  TrajectoryFile file = read_trajectory_file(path, {.may_have_numbers = true});
+  if (file.key != PoseKey::number) return;
+  for (StampedPose& pose : file.poses)
+    pose.stamp_ns = stamp_of_number(pose.stamp_ns, sequence.calibration.rate_hz);
+  sequence.truth = std::move(file.poses);
+  sequence.report.warnings = std::move(file.warnings);
 }
 
 }  // namespace
@@ -98,7 +101,7 @@ void list_numbered(const fs::path& folder, const SequenceOptions& options, Seque
   sequence.report.color_images = static_cast<std::int64_t>(color.size());
   sequence.report.depth_images = static_cast<std::int64_t>(depth.size());
   sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
-  read_truth(folder / "trajectory.txt", sequence);
+  read_numbered_truth(folder / "trajectory.txt", sequence);
 }
 
 }  // namespace cairn

@@ -3,10 +3,13 @@
 
 #include <chrono>
 #include <numbers>
+#include <optional>
 
 #include "cairn/core/error.h"
 #include "cairn/sequence/attitude.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/geodetic.h"
+#include "cairn/sequence/pose_collector.h"
 #include "cairn/sequence/recorded_poses.h"
 
 namespace cairn {
@@ -76,8 +79,15 @@ double parse_field(const TextFile& file, const TextLine& line, const PacketField
             "Check the order of the values: lat lon alt roll pitch yaw ... (30).");
 }
 
-/// Of body axes forward, left, up in east, north, up.
-RecordedPose read_packet(const fs::path& path) {
+/// Whether the position is NaN, or 0 north and 0 east.
+bool lacks_position(const TextFile& file, const TextLine& line) {
+  for (std::size_t i = 0; i < 3; ++i)
+    if (line.fields[i] == "nan" || line.fields[i] == "NaN" || line.fields[i] == "-nan") return true;
+  return is_without_fix({file.number(line, 0, "lat"), file.number(line, 1, "lon"), 0});
+}
+
+/// Of body axes forward, left, up in east, north, up; nullopt for a packet without a position.
+std::optional<RecordedPose> read_packet(const fs::path& path) {
   const TextFile file(path);
   if (file.lines().size() != 1) {
     throw InputError({path.string(), 0, "one line with 30 values",
@@ -86,6 +96,7 @@ RecordedPose read_packet(const fs::path& path) {
   }
   const TextLine& line = file.lines().front();
   file.expect_fields(line, 30, "lat lon alt roll pitch yaw ... pos_accuracy ... orimode");
+  if (lacks_position(file, line)) return std::nullopt;
   const auto value = [&](const PacketField& field) { return parse_field(file, line, field); };
   RecordedPose pose;
   pose.place = {value(kLatitude), value(kLongitude), value(kAltitude)};
@@ -124,11 +135,15 @@ RecordedPoses read_oxts(const fs::path& folder) {
   recorded.format = "OXTS";
   recorded.subject = PoseSubject::body_forward_left_up;
   recorded.geodetic = recorded.has_uncertainty = true;
+  PoseCollector collector(recorded);
   for (std::size_t i = 0; i < packets.size(); ++i) {
-    RecordedPose pose = read_packet(packets[i]);
-    pose.key = parse_date(times, times.lines()[i]);
-    append_pose(times, times.lines()[i], pose, recorded);
+    const TextLine& line = times.lines()[i];
+    const std::int64_t stamp_ns = parse_date(times, line);
+    std::optional<RecordedPose> pose = read_packet(packets[i]);
+    if (pose) pose->key = stamp_ns;
+    pose ? collector.add(times, line, *pose) : collector.leave_out(times, line, stamp_ns);
   }
+  collector.finish();
   return recorded;
 }
 

@@ -7,49 +7,11 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/core/text.h"
 
 namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
-
-enum class Quantity { time, count, length, angle };
-
-struct KnownColumn {
-  std::string_view name;
-  Quantity quantity;
-};
-
-constexpr std::array<KnownColumn, kTableColumns> kKnown{{{"time", Quantity::time},
-                                                         {"frame", Quantity::count},
-                                                         {"latitude", Quantity::angle},
-                                                         {"longitude", Quantity::angle},
-                                                         {"height", Quantity::length},
-                                                         {"east", Quantity::length},
-                                                         {"north", Quantity::length},
-                                                         {"up", Quantity::length},
-                                                         {"roll", Quantity::angle},
-                                                         {"pitch", Quantity::angle},
-                                                         {"heading", Quantity::angle},
-                                                         {"std_east", Quantity::length},
-                                                         {"std_north", Quantity::length},
-                                                         {"std_up", Quantity::length},
-                                                         {"std_roll", Quantity::angle},
-                                                         {"std_pitch", Quantity::angle},
-                                                         {"std_heading", Quantity::angle}}};
-
-struct KnownUnit {
-  std::string_view name;
-  ColumnUnit unit;
-  Quantity quantity;
-};
-
-constexpr std::array<KnownUnit, 5> kUnits{{{"s", ColumnUnit::second, Quantity::time},
-                                           {"ns", ColumnUnit::nanosecond, Quantity::time},
-                                           {"m", ColumnUnit::metre, Quantity::length},
-                                           {"deg", ColumnUnit::degree, Quantity::angle},
-                                           {"rad", ColumnUnit::radian, Quantity::angle}}};
 
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
@@ -58,79 +20,144 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-/// A column's name without its unit, in lower case with '_' for blanks.
-struct ColumnName {
-  std::string base, unit;
+// ---- finding the line ----
+
+/// Outside of brackets.
+bool has_comma(std::string_view line) {
+  int depth = 0;
+  for (const char c : line) {
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (c == ',' && depth <= 0) return true;
+  }
+  return false;
+}
+
+/// Splits at commas, or at blanks outside of brackets: "timestamp [ns] tx ty".
+std::vector<std::string> split_names(std::string_view line, Separator separator) {
+  std::vector<std::string> names;
+  if (separator == Separator::commas) {
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(',', begin), line.size());
+      names.emplace_back(trimmed(line.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    return names;
+  }
+  int depth = 0;
+  bool begins = true;
+  for (const char c : line) {
+    const bool is_blank = c == ' ' || c == '\t' || c == '\r';
+    if (c == '(' || c == '[') begins = begins && names.empty(), ++depth;  // a unit belongs to the name before
+    if (is_blank && depth == 0) {
+      begins = true;
+      continue;
+    }
+    if (begins) names.emplace_back();
+    begins = false;
+    if (!is_blank) names.back() += c;
+    if ((c == ')' || c == ']') && depth > 0) --depth;
+  }
+  return names;
+}
+
+/// How many of the names mean what.
+struct NameCounts {
+  int position = 0, quaternion = 0, table = 0;
 };
 
-bool is_unit(std::string_view text) {
-  return std::any_of(kUnits.begin(), kUnits.end(),
-                     [&](const KnownUnit& known) { return known.name == text; });
+NameCounts count_names(const std::vector<std::string>& names) {
+  NameCounts counts;
+  for (const std::string& name : names) {
+    const std::string base = split_name(name).base;
+    const auto meaning = find_column(base);
+    if (is_numbered_quaternion(base)) ++counts.quaternion;
+    if (!meaning) continue;
+    const TableColumn column = meaning->column;
+    if (std::find(kQuaternion.begin(), kQuaternion.end(), column) != kQuaternion.end())
+      ++counts.quaternion;
+    else if (std::find(kPosition.begin(), kPosition.end(), column) != kPosition.end())
+      ++counts.position;
+    else if (column != TableColumn::time && column != TableColumn::frame)
+      ++counts.table;
+  }
+  return counts;
 }
 
-std::string plain(std::string_view text) {
-  std::string result(trimmed(text));
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    if (c == ' ' || c == '-') c = '_';
-  }
-  return result;
+/// Two names at least: a sentence may hold one by chance.
+bool names_columns(const NameCounts& counts) {
+  const bool has_quaternion = counts.quaternion > 0 && counts.quaternion + counts.position > 1;
+  return has_quaternion || counts.table > 1;
 }
 
-/// "Latitude (deg)", "latitude [deg]" and "latitude_deg" are one name.
-ColumnName split_name(std::string_view written) {
-  const std::size_t bracket = written.find_first_of("([");
-  if (bracket != std::string_view::npos) {
-    const std::string_view rest = written.substr(bracket + 1);
-    return {plain(written.substr(0, bracket)), plain(rest.substr(0, rest.find_first_of(")]")))};
-  }
-  const std::string name = plain(written);
-  const std::size_t last = name.rfind('_');
-  if (last == std::string::npos || !is_unit(std::string_view(name).substr(last + 1))) return {name, ""};
-  return {name.substr(0, last), name.substr(last + 1)};
+bool begins_with_number(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(" \t");
+  const std::string_view rest = line.substr(std::min(begin, line.size()));
+  double value = 0;
+  return parse_number(rest.substr(0, rest.find_first_of(", \t\r;")), value);
 }
 
-std::optional<TableColumn> find_column(const std::string& base) {
-  const std::string_view name = base == "lat"   ? "latitude"
-                                : base == "lon" ? "longitude"
-                                                : std::string_view(base);
-  for (std::size_t i = 0; i < kKnown.size(); ++i) {
-    if (kKnown[i].name == name) return static_cast<TableColumn>(i);
+/// Takes lines from the front of a text.
+class LineScanner {
+ public:
+  explicit LineScanner(std::string_view text) : rest_(text) {
+    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
   }
-  return std::nullopt;
+  [[nodiscard]] bool next() {
+    if (rest_.empty()) return false;
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line = trimmed(rest_.substr(0, end));
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    ++number;
+    return true;
+  }
+  std::string_view line;
+  int number = 0;
+
+ private:
+  std::string_view rest_;
+};
+
+/// What the lines before the first row of numbers may name.
+struct Candidates {
+  std::optional<TableHeader> known;             ///< the last line whose names are known
+  std::optional<TableHeader> unknown;           ///< the first line without '#' that has commas
+  std::optional<TableHeader> without_rotation;  ///< the last line that names a position alone, with commas
+};
+
+void consider(std::string_view line, int number, Candidates& candidates) {
+  const bool is_comment = line.starts_with('#');
+  line = trimmed(line.substr(std::min(line.find_first_not_of("# \t"), line.size())));
+  const std::size_t colon = line.find(": ");  // "Format: timestamp tx ty ..."
+  if (colon != std::string_view::npos) line = trimmed(line.substr(colon + 1));
+  TableHeader header;
+  header.line = number;
+  header.separator = has_comma(line) ? Separator::commas : Separator::blanks;
+  header.names = split_names(line, header.separator);
+  header.open_ended = !header.names.empty() && header.names.back() == "...";
+  if (header.open_ended) header.names.pop_back();
+  const NameCounts counts = count_names(header.names);
+  if (names_columns(counts))
+    candidates.known = header;
+  else if (counts.position == 3 && counts.table == 0 && header.separator == Separator::commas)
+    candidates.without_rotation = header;
+  else if (!is_comment && header.separator == Separator::commas && !candidates.unknown)
+    candidates.unknown = header;
 }
+
+// ---- what the names mean ----
 
 [[noreturn]] void fail(const fs::path& path, const TableHeader& header, std::string expected,
                        std::string found, std::string remedy) {
   throw InputError({path.string(), header.line, std::move(expected), std::move(found), std::move(remedy)});
 }
 
-std::string default_unit(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::time:
-      return "s";
-    case Quantity::length:
-      return "m";
-    case Quantity::angle:
-      return "deg";
-    case Quantity::count:
-      break;
-  }
-  return "";
-}
-
 ColumnUnit unit_of(const fs::path& path, const TableHeader& header, std::size_t field, const ColumnName& name,
                    Quantity quantity) {
-  const std::string text = name.unit.empty() ? default_unit(quantity) : name.unit;
-  if (text.empty()) return ColumnUnit::none;
-  std::string choices;
-  for (const KnownUnit& known : kUnits) {
-    if (known.quantity != quantity) continue;
-    if (known.name == text) return known.unit;
-    choices += fmt::format("{}{}", choices.empty() ? "" : " or ", known.name);
-  }
+  if (const auto unit = find_unit(name.unit, quantity)) return *unit;
+  const std::string choices = unit_choices(quantity);
   fail(path, header, fmt::format("'{}' in {}", name.base, choices.empty() ? "no unit" : choices),
-       fmt::format("'{}'", header.names[field]), "Convert the column, or mend its name.");
+       fmt::format("'{}'", header.names[field]), "Convert the column, or correct its name.");
 }
 
 /// Whether a name that is not known may be a known one, misspelt, or a standard deviation in other words: to
@@ -147,30 +174,21 @@ bool may_be_mistaken(const std::string& base, const std::string& nearest) {
 
 void refuse_if_mistakable(const fs::path& path, const TableHeader& header, std::size_t field,
                           const std::string& base) {
-  std::vector<std::string> known;
-  for (const KnownColumn& column : kKnown) known.emplace_back(column.name);
-  const std::string nearest = nearest_name(base, known);
+  const std::string nearest = nearest_name(base, table_names());
   if (!may_be_mistaken(base, nearest)) return;
   fail(path, header, "names of columns as in docs/poses.md", fmt::format("'{}'", header.names[field]),
        fmt::format("Did you mean '{}'? Rename the column, or delete it.", nearest));
 }
 
-void place_columns(const fs::path& path, TableHeader& header) {
-  for (std::size_t field = 0; field < header.names.size(); ++field) {
-    const ColumnName name = split_name(header.names[field]);
-    const auto column = find_column(name.base);
-    if (!column) {
-      refuse_if_mistakable(path, header, field, name.base);
-      continue;
-    }
-    auto& place = header.places.at(static_cast<std::size_t>(*column));
-    if (place) {
-      fail(path, header, fmt::format("one column '{}'", to_string(*column)),
-           fmt::format("'{}' and '{}'", header.names[place->field], header.names[field]), "Delete one.");
-    }
-    const Quantity quantity = kKnown.at(static_cast<std::size_t>(*column)).quantity;
-    place = ColumnPlace{field, unit_of(path, header, field, name, quantity)};
+void place_column(const fs::path& path, std::size_t field, const ColumnName& name,
+                  const ColumnMeaning& meaning, TableHeader& header) {
+  auto& place = header.places.at(static_cast<std::size_t>(meaning.column));
+  if (place) {
+    fail(path, header, fmt::format("one column '{}'", to_string(meaning.column)),
+         fmt::format("'{}' and '{}'", header.names[place->field], header.names[field]), "Delete one.");
   }
+  const ColumnUnit unit = unit_of(path, header, field, name, quantity_of(meaning.column));
+  place = ColumnPlace{field, unit, meaning.factor};
 }
 
 bool has_any(const TableHeader& header, const ColumnTriple& triple) {
@@ -181,14 +199,16 @@ bool has_any(const TableHeader& header, const ColumnTriple& triple) {
   fail(path, header,
        fmt::format(
            "{} among the columns: time (s, ns) or frame; latitude, longitude (deg), height (m) or east, "
-           "north, up (m); roll, pitch, heading (deg); perhaps std_east, std_north, std_up (m), std_roll, "
-           "std_pitch, std_heading (deg)",
+           "north, up (m); roll, pitch, heading (deg), or for all of these x, y, z (m), qx, qy, qz, qw; "
+           "perhaps "
+           "std_east, std_north, std_up (m), std_roll, std_pitch, std_heading (deg)",
            missing),
        fmt::format("{}", fmt::join(header.names, ", ")), "Add or rename columns (docs/poses.md).");
 }
 
-void expect_all(const fs::path& path, const TableHeader& header, const ColumnTriple& triple) {
-  for (const TableColumn column : triple) {
+template <std::size_t N>
+void expect_all(const fs::path& path, const TableHeader& header, const std::array<TableColumn, N>& columns) {
+  for (const TableColumn column : columns) {
     if (!header.has(column)) fail_missing(path, header, fmt::format("'{}'", to_string(column)));
   }
 }
@@ -200,39 +220,51 @@ void expect_one(const fs::path& path, const TableHeader& header, bool first, boo
   fail(path, header, fmt::format("either {}", choices), "both", "Delete or rename those that do not count.");
 }
 
-}  // namespace
-
-std::string_view to_string(TableColumn column) {
-  return kKnown.at(static_cast<std::size_t>(column)).name;
+/// "height" beside east and north is "up": a local world has no ellipsoid.
+void take_height_for_up(TableHeader& header) {
+  auto& height = header.places.at(static_cast<std::size_t>(TableColumn::height));
+  auto& up = header.places.at(static_cast<std::size_t>(TableColumn::up));
+  const bool geodetic = header.has(TableColumn::latitude) || header.has(TableColumn::longitude);
+  const bool local = header.has(TableColumn::east) || header.has(TableColumn::north);
+  if (height && !up && !geodetic && local) up.swap(height);
 }
 
+}  // namespace
+
 std::optional<TableHeader> find_table_header(const fs::path& path) {
+  constexpr int kLongestHead = 200;  // lines; no file names its columns further down
   const std::string contents = read_file(path);
-  TableHeader header;
-  std::string_view rest = contents, line;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
-  for (; !rest.empty() && line.empty(); ++header.line) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
-    line = trimmed(rest.substr(0, end + 1 - (rest[end] == '\n' ? 1 : 0)));
-    rest.remove_prefix(end + 1);
+  LineScanner scanner(contents);
+  Candidates candidates;
+  while (scanner.number < kLongestHead && scanner.next()) {
+    if (scanner.line.empty()) continue;
+    if (!begins_with_number(scanner.line)) {
+      consider(scanner.line, scanner.number, candidates);
+      continue;
+    }
+    const auto values = static_cast<std::size_t>(std::count(scanner.line.begin(), scanner.line.end(), ','));
+    if (candidates.unknown && candidates.unknown->names.size() <= values) candidates.unknown.reset();
+    const auto& places = candidates.without_rotation;
+    if (!candidates.known && places && places->names.size() == values + 1) return places;
+    break;
   }
-  const bool is_comment = line.starts_with('#');
-  if (is_comment) line.remove_prefix(1);
-  if (line.find(',') == std::string_view::npos) return std::nullopt;
-  bool knows_one = false;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    header.names.emplace_back(trimmed(line.substr(begin, end - begin)));
-    knows_one = knows_one || find_column(split_name(header.names.back()).base);
-    begin = end + 1;
-  }
-  double value = 0;
-  const bool is_header = knows_one || (!is_comment && !parse_number(header.names[0], value));
-  return is_header ? std::optional(header) : std::nullopt;
+  return candidates.known ? candidates.known : candidates.unknown;
+}
+
+bool names_quaternions(const TableHeader& header) {
+  const NameCounts counts = count_names(header.names);
+  return counts.quaternion > 0 || (counts.position == 3 && counts.table == 0);
 }
 
 void check_table_header(const fs::path& path, TableHeader& header) {
-  place_columns(path, header);
+  for (std::size_t field = 0; field < header.names.size(); ++field) {
+    const ColumnName name = split_name(header.names[field]);
+    if (const auto meaning = find_column(name.base))
+      place_column(path, field, name, *meaning, header);
+    else
+      refuse_if_mistakable(path, header, field, name.base);
+  }
+  take_height_for_up(header);
   const bool geodetic = has_any(header, kGeodetic), local = has_any(header, kLocal);
   expect_one(path, header, header.has(TableColumn::time), header.has(TableColumn::frame),
              "'time' or 'frame'");
@@ -242,6 +274,28 @@ void check_table_header(const fs::path& path, TableHeader& header) {
   for (const ColumnTriple& triple : {kPlaceDeviations, kAngleDeviations}) {
     if (has_any(header, triple)) expect_all(path, header, triple);
   }
+}
+
+void check_quaternion_header(const fs::path& path, TableHeader& header) {
+  std::vector<std::string> numbered;
+  for (std::size_t field = 0; field < header.names.size(); ++field) {
+    const ColumnName name = split_name(header.names[field]);
+    if (is_numbered_quaternion(name.base)) numbered.push_back(header.names[field]);
+    const auto meaning = find_column(name.base);
+    const bool is_wanted =
+        meaning && (meaning->column <= TableColumn::frame || meaning->column >= TableColumn::x);
+    if (is_wanted) place_column(path, field, name, *meaning, header);
+  }
+  if (!numbered.empty()) {
+    fail(path, header, "the quaternion's columns by the names qx, qy, qz, qw",
+         fmt::format("{}", fmt::join(numbered, ", ")),
+         "Rename them: numbers do not say which one is the scalar part, qw.");
+  }
+  auto& frame = header.places.at(static_cast<std::size_t>(TableColumn::frame));
+  if (header.has(TableColumn::time)) frame.reset();  // the time says more
+  if (!frame && !header.has(TableColumn::time)) fail_missing(path, header, "'time' or 'frame'");
+  expect_all(path, header, kPosition);
+  expect_all(path, header, kQuaternion);
 }
 
 }  // namespace cairn

@@ -1,63 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to this room: the columns of a table of poses.
+// Private to this room: the line that names the columns of a file of poses.
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "cairn/core/text.h"
+#include "cairn/sequence/pose_columns.h"
+
 namespace cairn {
-
-enum class TableColumn : std::uint8_t {
-  time,
-  frame,
-  latitude,
-  longitude,
-  height,
-  east,
-  north,
-  up,
-  roll,
-  pitch,
-  heading,
-  std_east,
-  std_north,
-  std_up,
-  std_roll,
-  std_pitch,
-  std_heading
-};
-inline constexpr std::size_t kTableColumns = 17;
-
-/// Three columns that go together.
-using ColumnTriple = std::array<TableColumn, 3>;
-inline constexpr ColumnTriple kGeodetic{TableColumn::latitude, TableColumn::longitude, TableColumn::height};
-inline constexpr ColumnTriple kLocal{TableColumn::east, TableColumn::north, TableColumn::up};
-inline constexpr ColumnTriple kAngles{TableColumn::roll, TableColumn::pitch, TableColumn::heading};
-inline constexpr ColumnTriple kPlaceDeviations{TableColumn::std_east, TableColumn::std_north,
-                                               TableColumn::std_up};
-inline constexpr ColumnTriple kAngleDeviations{TableColumn::std_roll, TableColumn::std_pitch,
-                                               TableColumn::std_heading};
-
-[[nodiscard]] std::string_view to_string(TableColumn column);
-
-enum class ColumnUnit { none, second, nanosecond, metre, degree, radian };
 
 struct ColumnPlace {
   std::size_t field = 0;
   ColumnUnit unit = ColumnUnit::none;
+  double factor = 1;  ///< of the values
 };
 
-/// The line that names the columns, the first of the file, perhaps behind a '#'.
+/// The last line before the poses that names columns, perhaps behind a '#'.
 struct TableHeader {
   int line = 0;
-  std::vector<std::string> names;  ///< as written
-  std::array<std::optional<ColumnPlace>, kTableColumns> places;
+  std::vector<std::string> names;           ///< as written
+  Separator separator = Separator::blanks;  ///< of the names; the rows may have another one
+  bool open_ended = false;                  ///< "..." stands behind the names
+  std::array<std::optional<ColumnPlace>, kTableColumns> places;  ///< set by check_table_header
 
   [[nodiscard]] const std::optional<ColumnPlace>& place(TableColumn column) const {
     return places.at(static_cast<std::size_t>(column));
@@ -66,11 +34,21 @@ struct TableHeader {
   [[nodiscard]] bool has(const ColumnTriple& triple) const { return has(triple[0]); }
 };
 
-/// Nothing where the first line is none: numbers, or no commas.
+/// Returns nullopt if no line before the first row of numbers names columns. A line without '#' that has
+/// commas names columns even if none of the names is known, unless the rows have more values.
 [[nodiscard]] std::optional<TableHeader> find_table_header(const std::filesystem::path& path);
 
-/// Complete: a time or a frame, a place, the angles; InputError where something is missing, there twice, of
-/// an unknown unit, or where an unknown name may be a misspelt one.
+/// Whether the names are of poses with quaternions, by whatever names, complete or not, or of positions
+/// alone.
+[[nodiscard]] bool names_quaternions(const TableHeader& header);
+
+/// Finds the columns of a table with angles: a time or a frame, a place, the angles. InputError if something
+/// is missing, there twice, of an unknown unit, or if an unknown name may be a misspelt one.
 void check_table_header(const std::filesystem::path& path, TableHeader& header);
+
+/// Finds the columns of a table with quaternions: a time or a frame, x, y, z, qx, qy, qz, qw. InputError if
+/// something is missing, there twice or of an unknown unit, or if the quaternion's components are numbered.
+/// Other columns are left out.
+void check_quaternion_header(const std::filesystem::path& path, TableHeader& header);
 
 }  // namespace cairn

@@ -142,9 +142,10 @@ TEST_F(PoseTableTest, broken_headers_are_refused) {
       {"time,east,north,up,roll,pitch,heading,sigma_n\n", 1, names, "'sigma_n'", "Did you mean"},
       {"time,east,north,up,roll,pitch,heading (gon)\n", 1, "'heading' in deg or rad", "'heading (gon)'",
        "Convert the column"},
-      {"time_ms,east,north,up,roll,pitch,heading\n", 1, "'time' or 'frame' among",
-       "time_ms, east, north, up, roll, pitch, heading", add},
-      {"time (ms),east,north,up,roll,pitch,heading\n", 1, "'time' in s or ns", "'time (ms)'", "Convert"},
+      {"time_min,east,north,up,roll,pitch,heading\n", 1, "'time' or 'frame' among",
+       "time_min, east, north, up, roll, pitch, heading", add},
+      {"time (min),east,north,up,roll,pitch,heading\n", 1, "'time' in s or ms or us or ns", "'time (min)'",
+       "Convert"},
       {"frame (s),east,north,up,roll,pitch,heading\n", 1, "'frame' in no unit", "'frame (s)'", "Convert"},
       {"time,east,north,up,roll,pitch,heading,std_north\n", 1, "'std_east' among",
        "time, east, north, up, roll, pitch, heading, std_north", add},
@@ -161,26 +162,27 @@ TEST_F(PoseTableTest, broken_headers_are_refused) {
 TEST_F(PoseTableTest, broken_rows_are_refused) {
   const std::string local = "time_s,east,north,up,roll,pitch,heading,std_east,std_north,std_up\n";
   const std::string geodetic = "time_ns,lat,lon,height,roll,pitch,heading\n";
-  const char *const mend = "Mend or delete the line.", *const units =
-                                                           "Check the order and the units of the columns.";
+  const char *const mend = "Mend or delete the line.", *const correct = "Correct or delete the line.",
+                    *const names = "Correct the names of the columns, or the line.",
+                    *const units = "Check the order and the units of the columns.";
   const BrokenTable cases[] = {
-      {local + "0,1,2,3\n", 2, "10 values (time_s, east, north", "4", mend},
-      {local + "x,1,2,3,4,5,6,7,8,9\n", 2, "a time stamp in seconds", "'x'", mend},
-      {local + "0,1,2,,4,5,6,7,8,9\n", 2, "a number for up", "''", mend},
-      {local + "0,1,nan,3,4,5,6,7,8,9\n", 2, "a number for north", "'nan'", mend},
+      {local + "0,1,2,3\n", 2, "10 values (time_s, east, north", "4", names},
+      {local + "x,1,2,3,4,5,6,7,8,9\n", 2, "a time stamp in seconds", "'x'", correct},
+      {local + "0,1,2,up,4,5,6,7,8,9\n", 2, "a number for up", "'up'", mend},
+      {local + "0,1,2,3,4,5,6,7,nan,9\n", 2, "a number for std_north", "'nan'", mend},
       {local + "0,1e13,0,0,0,0,0,0,0,0\n", 2, "east from -1e+12 to 1e+12 m", "1e+13", units},
       {local + "0,0,0,0,0,91,0,0,0,0\n", 2, "pitch from -90 to 90 degrees", "91", units},
       {local + "0,0,0,0,0,0,361,0,0,0\n", 2, "heading from -360 to 360 degrees", "361", units},
       {local + "0,0,0,0,0,0,0,0,-1,0\n", 2, "std_north from 0 to 1e+06 m", "-1", units},
-      {local + "1,0,0,0,0,0,0,0,0,0\n\n1,0,0,0,0,0,0,0,0,0\n", 4, "a time stamp after 1.000000000",
-       "1.000000000", "Sort the file and remove double lines."},
-      {geodetic + "0.5,0,0,0,0,0,0\n", 2, "a time stamp in whole nanoseconds", "'0.5'", mend},
+      {local + "1,0,0,0,0,0,0,0,0,0\n\n0.5,0,0,0,0,0,0,0,0,0\n", 4, "a time stamp after 1.000000000",
+       "0.500000000", "Sort the file by time."},
+      {geodetic + "0.5,0,0,0,0,0,0\n", 2, "a time stamp in whole nanoseconds", "'0.5'", correct},
       {geodetic + "5,4900,8,0,0,0,0\n", 2, "latitude from -90 to 90 degrees", "4900", units},
       {geodetic + "5,49,361,0,0,0,0\n", 2, "longitude from -180 to 360 degrees", "361", units},
       {"frame,east,north,up,roll,pitch,heading\n0.5,0,0,0,0,0,0\n", 2, "a whole number for frame", "'0.5'",
        mend},
       {"frame,east,north,up,roll,pitch,heading\n2,0,0,0,0,0,0\n1,0,0,0,0,0,0\n", 3, "a frame number after 2",
-       "1", "Sort the file and remove double lines."},
+       "1", "Sort the file by number."},
   };
   for (const BrokenTable& broken : cases)
     expect_refused(broken, message_of([&] { return read(broken.text); }), (folder_ / "table.csv").string());

@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "cairn/core/error.h"
-#include "cairn/sequence/asl_poses.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/pose_collector.h"
+#include "cairn/sequence/table_row.h"
 
 namespace cairn {
 namespace {
@@ -31,13 +29,26 @@ RecordedPoses empty_poses(const fs::path& source, const char* format) {
 }
 
 RecordedPoses read_tum(const fs::path& path, bool may_have_numbers) {
+  constexpr std::string_view kLayout = "t tx ty tz qx qy qz qw";
   constexpr std::int64_t kSecondNs = 1'000'000'000;  // a whole number was read as seconds
-  RecordedPoses recorded = poses_of_trajectory(read_tum_trajectory(path));
-  recorded.source = path;
-  recorded.format = "TUM";
-  if (!may_have_numbers || !has_frame_numbers(path)) return recorded;
-  recorded.key = PoseKey::number;
-  for (RecordedPose& pose : recorded.poses) pose.key /= kSecondNs;
+  RecordedPoses recorded = empty_poses(path, "TUM");
+  const TextFile file(path);
+  std::vector<std::string_view> stamps;
+  for (const TextLine& line : file.lines()) stamps.push_back(line.fields.front());
+  const TimeUnit unit = infer_time_unit(stamps);
+  const bool has_numbers = may_have_numbers && has_frame_numbers(path);
+  if (has_numbers) recorded.key = PoseKey::number;
+  PoseCollector collector(recorded);
+  for (const TextLine& line : file.lines()) {
+    file.expect_fields(line, 8, kLayout);
+    const auto [stamp_ns, pose] = parse_tum_pose(file, line, 0, unit);
+    collector.add(file, line, recorded_pose(has_numbers ? stamp_ns / kSecondNs : stamp_ns, pose));
+  }
+  if (recorded.poses.empty()) {
+    throw InputError({path.string(), 0, fmt::format("poses, one a line: {}", kLayout), "none",
+                      "Check that this is the right file."});
+  }
+  collector.finish();
   return recorded;
 }
 
@@ -51,39 +62,34 @@ RecordedPoses read_kitti(const TextFile& file) {
   return recorded;
 }
 
-RecordedPoses read_asl(const fs::path& path) {
-  RecordedPoses recorded = empty_poses(path, "EuRoC");
-  recorded.subject = PoseSubject::body_of_sensor;
-  for (const auto& [stamp_ns, world_from_body] : read_asl_poses(path))
-    recorded.poses.push_back(recorded_pose(stamp_ns, world_from_body));
-  return recorded;
+/// By its content: names of columns first, then how many values a line has.
+RecordedPoses read_text(const fs::path& path, bool may_have_numbers) {
+  if (const auto header = find_table_header(path)) {
+    return names_quaternions(*header) ? read_quaternion_table(path, *header, may_have_numbers)
+                                      : read_pose_table(path, *header);
+  }
+  if (separator_of_rows(path) == Separator::commas) return read_unnamed_asl_poses(path);
+  constexpr std::size_t kMatrix = 12;
+  const TextFile file(path);
+  const bool is_kitti = !file.lines().empty() && file.lines().front().fields.size() == kMatrix;
+  return is_kitti ? read_kitti(file) : read_tum(path, may_have_numbers);
 }
 
-RecordedPoses read_folder(const fs::path& folder) {
+RecordedPoses read_folder(const fs::path& folder, bool may_have_numbers) {
   if (is_oxts(folder)) return read_oxts(folder);
   if (const auto oxts = oxts_in(folder)) return read_oxts(*oxts);
-  if (fs::exists(folder / "data.csv")) return read_asl(folder / "data.csv");
+  for (const char* name : {"data.csv", "trajectory.txt"})
+    if (fs::exists(folder / name)) return read_text(folder / name, may_have_numbers);
   throw InputError({folder.string(), 0,
-                    "poses: OXTS packets (data/ and timestamps.txt), or a data.csv as EuRoC's",
+                    "poses: OXTS packets (data/ and timestamps.txt), a data.csv as EuRoC's, or a run's "
+                    "trajectory.txt",
                     "a folder without them", "Name the file or the folder that holds the poses."});
-}
-
-RecordedPoses read_text(const fs::path& path, bool may_have_numbers) {
-  const TextFile file(path);
-  if (file.lines().empty()) return read_tum(path, may_have_numbers);
-  const auto& fields = file.lines().front().fields;
-  const bool has_commas = std::any_of(fields.begin(), fields.end(), [](std::string_view field) {
-    return field.find(',') != std::string_view::npos;
-  });
-  if (has_commas) return is_pose_table(path) ? read_pose_table(path) : read_asl(path);
-  constexpr std::size_t kMatrix = 12;
-  return fields.size() == kMatrix ? read_kitti(file) : read_tum(path, may_have_numbers);
 }
 
 }  // namespace
 
 RecordedPoses read_recorded_poses(const fs::path& path, bool may_have_numbers) {
-  return fs::is_directory(path) ? read_folder(path) : read_text(path, may_have_numbers);
+  return fs::is_directory(path) ? read_folder(path, may_have_numbers) : read_text(path, may_have_numbers);
 }
 
 RecordedPoses poses_of_trajectory(const Trajectory& trajectory) {
@@ -91,22 +97,6 @@ RecordedPoses poses_of_trajectory(const Trajectory& trajectory) {
   for (const StampedPose& pose : trajectory)
     recorded.poses.push_back(recorded_pose(pose.stamp_ns, pose.world_from_camera));
   return recorded;
-}
-
-void append_pose(const TextFile& file, const TextLine& line, const RecordedPose& pose,
-                 RecordedPoses& recorded) {
-  if (recorded.poses.empty() || pose.key > recorded.poses.back().key) {
-    recorded.poses.push_back(pose);
-    return;
-  }
-  const bool by_time = recorded.key == PoseKey::stamp;
-  const auto describe = [&](std::int64_t key) {
-    return by_time ? format_stamp(key) : fmt::format("{}", key);
-  };
-  file.fail(line,
-            fmt::format("a {} after {}", by_time ? "time stamp" : "frame number",
-                        describe(recorded.poses.back().key)),
-            describe(pose.key), "Sort the file and remove double lines.");
 }
 
 Eigen::Matrix3d covariance_of(const Eigen::Vector3d& standard_deviations) {

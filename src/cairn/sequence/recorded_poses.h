@@ -6,19 +6,20 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cairn/core/text.h"
 #include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/pose_table_header.h"
+#include "cairn/sequence/trajectory_file.h"
 
 namespace cairn {
 
-/// By what a pose finds its frame.
-enum class PoseKey { stamp, number, position };
-
-/// Of what the poses are: of the camera whose images FrameLoader gives, or of a body with these axes.
-enum class PoseSubject { camera, body_forward_left_up, body_forward_right_down, body_of_sensor };
+/// Of what the poses are: of the camera whose images FrameLoader gives, or of a body with these axes; or not
+/// stated: of the body if the calibration says where the camera sits on one, else of the camera.
+enum class PoseSubject { camera, body_forward_left_up, body_forward_right_down, body_of_sensor, not_stated };
 
 struct RecordedPose {
   std::int64_t key = 0;  ///< nanoseconds, number of a frame, or position of a frame in the recording
@@ -40,6 +41,9 @@ struct RecordedPoses {
   bool geodetic = false;
   bool has_uncertainty = false;
   std::vector<RecordedPose> poses;  ///< keys increase strictly; at least one
+  /// Of the first row, be it one that was left out as the receiver had no fix yet.
+  std::optional<std::int64_t> first_key;
+  std::vector<std::string> warnings;  ///< what a person should know, a sentence each
 };
 
 /// Finds out the format of a file or a folder by its content. A TUM file or a table may have numbers of
@@ -54,13 +58,15 @@ struct RecordedPoses {
 /// robotics: the KITTI dataset"): data/NNNNNNNNNN.txt, each of 30 values, and timestamps.txt.
 [[nodiscard]] RecordedPoses read_oxts(const std::filesystem::path& folder);
 
-/// Whether the first line names the columns of a table (docs/poses.md).
-[[nodiscard]] bool is_pose_table(const std::filesystem::path& path);
-[[nodiscard]] RecordedPoses read_pose_table(const std::filesystem::path& path);
+/// Poses of a table whose columns are named and hold angles. `header` is that of find_table_header.
+[[nodiscard]] RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader header);
+/// Poses with quaternions in named columns, in any order. Between blanks whole numbers of an unstated unit
+/// belong to frames where `may_have_numbers`.
+[[nodiscard]] RecordedPoses read_quaternion_table(const std::filesystem::path& path, TableHeader header,
+                                                  bool may_have_numbers);
+/// Poses in EuRoC's order of columns, `stamp [ns], px, py, pz, qw, qx, qy, qz, ...`, which no line names.
+[[nodiscard]] RecordedPoses read_unnamed_asl_poses(const std::filesystem::path& path);
 
-/// Appends a pose read from a line; InputError unless its key is above the last one's.
-void append_pose(const TextFile& file, const TextLine& line, const RecordedPose& pose,
-                 RecordedPoses& recorded);
 /// Independent errors: the squares on the diagonal.
 [[nodiscard]] Eigen::Matrix3d covariance_of(const Eigen::Vector3d& standard_deviations);
 

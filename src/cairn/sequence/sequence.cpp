@@ -133,6 +133,7 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
                                  : "Widen --frames, --without, start_index or end_index."});
   }
   sequence.listed = count;
+  sequence.first_stamp_ns = sequence.frames.front().stamp_ns;
   sequence.frames = std::move(kept);
 }
 

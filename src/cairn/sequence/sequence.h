@@ -35,6 +35,7 @@ struct SequenceReport {
   std::int64_t right_images = 0;
   std::int64_t associated = 0;  ///< colour images that got a depth image, left ones that got a right one
   double max_stamp_gap_s = 0;   ///< largest difference of the stamps of a pair
+  std::vector<std::string> warnings;  ///< what a person should know of its poses, a sentence each
 };
 
 /// A recording on disk: which images, when, seen by which cameras; the images are decoded by FrameLoader.
@@ -42,9 +43,10 @@ struct Sequence {
   std::filesystem::path folder;
   std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI", "EuRoC"
   Calibration calibration;
-  std::string calibration_source;  ///< where the calibration comes from, for people
-  std::vector<FrameFiles> frames;  ///< stamps strictly increasing
-  std::int64_t listed = 0;         ///< frames of the recording, before they were chosen
+  std::string calibration_source;              ///< where the calibration comes from, for people
+  std::vector<FrameFiles> frames;              ///< stamps strictly increasing
+  std::int64_t listed = 0;                     ///< frames of the recording, before they were chosen
+  std::optional<std::int64_t> first_stamp_ns;  ///< of the recording, before frames were chosen
   /// world_from_camera of the colour (rectified left) camera, where the format carries it.
   std::optional<Trajectory> truth;
   SequenceReport report;

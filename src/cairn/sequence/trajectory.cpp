@@ -25,9 +25,9 @@ double parse_coordinate(const TextFile& file, const TextLine& line, std::size_t 
 
 }  // namespace
 
-StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size_t first) {
+StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size_t first, TimeUnit unit) {
   StampedPose pose;
-  if (!parse_stamp(line.fields.at(first), pose.stamp_ns)) {
+  if (!parse_stamp_in(unit, line.fields.at(first), pose.stamp_ns)) {
     file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[first]),
               "Mend or delete the line.");
   }
@@ -64,26 +64,6 @@ WorldFromCamera parse_matrix_pose(const TextFile& file, const TextLine& line) {
               "Check the layout: r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.");
   }
   return WorldFromCamera({nearest_rotation(r), m.col(3)});
-}
-
-Trajectory read_tum_trajectory(const std::filesystem::path& path) {
-  const TextFile file(path);
-  Trajectory trajectory;
-  trajectory.reserve(file.lines().size());
-  for (const TextLine& line : file.lines()) {
-    file.expect_fields(line, 8, kLayout);
-    const StampedPose pose = parse_tum_pose(file, line, 0);
-    if (!trajectory.empty() && pose.stamp_ns <= trajectory.back().stamp_ns) {
-      file.fail(line, fmt::format("a time stamp after {}", format_stamp(trajectory.back().stamp_ns)),
-                format_stamp(pose.stamp_ns), "Sort the file by time and remove double stamps.");
-    }
-    trajectory.push_back(pose);
-  }
-  if (trajectory.empty()) {
-    throw InputError({path.string(), 0, fmt::format("poses, one a line: {}", kLayout), "none",
-                      "Check that this is the right file."});
-  }
-  return trajectory;
 }
 
 std::string format_tum_trajectory(const Trajectory& trajectory) {

@@ -142,7 +142,7 @@ void list_tum(const fs::path& folder, const SequenceOptions& options, Sequence& 
   }
   sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
   if (fs::exists(folder / "groundtruth.txt"))
-    sequence.truth = read_tum_trajectory(folder / "groundtruth.txt");
+    sequence.truth = read_truth(folder / "groundtruth.txt", false, sequence.report);
   if (const auto calibration = calibration_by_name(folder)) {
     sequence.calibration = *calibration;
     sequence.calibration_source = "the TUM benchmark's camera, by the folder's name";

@@ -121,8 +121,6 @@ TEST_F(TumTest, broken_lists_are_refused_by_line) {
       {"depth.txt", "1 a.png\n1 b.png\n", ":2: expected a time stamp after 1.000000000, found 1.000000000"},
       {"associations.txt", "2 a 2 b\n1 a 1 b\n",
        ":2: expected a time stamp after 2.000000000, found 1.000000000"},
-      {"groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n",
-       ":2: expected a time stamp after 2.000000000, found 1.000000000"},
       {"rgb.txt", "#\nx a.png\n", ":2: expected a time stamp in seconds, found 'x'"},
       {"rgb.txt", "1\n", ":1: expected 2 values (stamp path), found 1"},
       {"associations.txt", "1 a.png 1\n", ":1: expected 4 values (stamp rgb stamp depth), found 3"},
@@ -135,6 +133,41 @@ TEST_F(TumTest, broken_lists_are_refused_by_line) {
     const bool about_order = std::string(broken.rest).find("after") != std::string::npos;
     EXPECT_EQ(refusal(), place(broken.file) + broken.rest + (about_order ? sort : mend));
   }
+}
+
+TEST_F(TumTest, truth_that_goes_back_in_time_is_refused) {
+  put("groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+  EXPECT_EQ(refusal(),
+            place("groundtruth.txt") +
+                ":2: expected a time stamp after 2.000000000, found 1.000000000.\n  Sort the file by time.");
+}
+
+TEST_F(TumTest, stamps_that_come_twice_in_the_truth_are_named) {
+  put("groundtruth.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n");
+  EXPECT_TRUE(open_sequence(folder_).report.warnings.empty());
+  put("groundtruth.txt", "1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1\n2 0.5 0 0 0 0 0 1\n");
+  const Sequence sequence = open_sequence(folder_);
+  EXPECT_EQ(sequence.truth->size(), 2U);
+  EXPECT_EQ(sequence.report.warnings,
+            std::vector<std::string>{
+                place("groundtruth.txt") +
+                ":3: a second pose, 0.5 m away, at 2.000000000; 1 such line left out, the first "
+                "pose counts."});
+}
+
+TEST_F(TumTest, truth_may_name_its_columns) {
+  put("groundtruth.txt", "# timestamp tx ty tz qw qx qy qz\n1 1 2 3 0.8 0.2 -0.4 0.4\n");
+  EXPECT_NEAR(open_sequence(folder_).truth->at(0).world_from_camera.rotation.w(), 0.8, 1e-12);
+  put("groundtruth.txt", "time,east,north,up,roll,pitch,heading\n1,1,2,3,0,0,0\n");
+  EXPECT_EQ(refusal(),
+            place("groundtruth.txt") +
+                ": expected poses of the camera, as a sequence carries them, found poses of a body (table).\n"
+                "  Move the file elsewhere and give it with --poses.");
+  put("groundtruth.txt", "1 0 0 10 0 1 0 0 0 0 1 0\n");
+  EXPECT_EQ(refusal(),
+            place("groundtruth.txt") +
+                ": expected poses with time stamps, t tx ty tz qx qy qz qw a line, found poses without "
+                "(KITTI).\n  Write the file in TUM format.");
 }
 
 TEST_F(TumTest, lists_of_two_clocks_are_refused) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Private to this room: the poses of one file in their order, and what is odd about them.
+#pragma once
+
+#include <vector>
+
+#include "cairn/core/text.h"
+#include "cairn/sequence/recorded_poses.h"
+
+namespace cairn {
+
+/// Collects the poses of a file. A stamp that comes again is taken once: a second pose that equals the first
+/// is left out in silence, another one with a warning.
+class PoseCollector {
+ public:
+  /// `recorded` says what its keys are, and must live as long.
+  explicit PoseCollector(RecordedPoses& recorded) : recorded_(recorded) {}
+
+  /// InputError that names the line unless the pose's key is at or above the last one's.
+  void add(const TextFile& file, const TextLine& line, const RecordedPose& pose);
+  /// Counts a row that states no position, as receivers write before they have a fix.
+  void leave_out(const TextFile& file, const TextLine& line, std::int64_t key);
+  /// Appends the warnings: rows left out, other poses at the same stamp, and positions that no vehicle
+  /// reaches in the time between two rows. InputError if every row was left out.
+  void finish();
+
+ private:
+  /// Lines of one kind.
+  struct Oddities {
+    int count = 0;
+    std::string first;   ///< "file:line" of the first
+    std::string detail;  ///< of the first
+  };
+  void note(const TextFile& file, const TextLine& line, std::string detail, Oddities& oddities) const;
+  void check_speed(const TextFile& file, const TextLine& line, const RecordedPose& pose);
+  [[nodiscard]] std::string describe(std::int64_t key) const;
+
+  RecordedPoses& recorded_;
+  Oddities left_out_, repeated_, jumps_;
+};
+
+}  // namespace cairn
