@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/sequence/geodetic.h"
 #include "cairn/sequence/recorded_poses.h"
 
@@ -207,7 +208,7 @@ PoseUncertainty uncertainty_at(const RecordedPose& body, const Eigen::Vector3d& 
   PoseUncertainty uncertainty;
   uncertainty.rotation = body.rotation_covariance;
   uncertainty.position_rotation = by_rotation * body.rotation_covariance;
-  uncertainty.position = body.place_covariance + uncertainty.position_rotation * by_rotation.transpose();
+  uncertainty.position = body.place_covariance + propagate_covariance(by_rotation, body.rotation_covariance);
   return uncertainty;
 }
 
@@ -226,6 +227,8 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
   if (recorded.key == PoseKey::stamp) shift_stamps(options.time_offset_s, recorded);
   const PoseSpans spans = spans_of_frames(sequence, recorded, options);
   GivenPoses given;
+  given.source = recorded.source;
+  given.subject_from_camera = body_from_camera;
   given.format = recorded.format;
   if (recorded.geodetic) {
     given.origin = options.origin.value_or(origin_at(recorded.poses[first_used(spans)].place));

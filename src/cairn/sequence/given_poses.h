@@ -43,6 +43,8 @@ struct GivenPoses {
   std::vector<std::optional<GivenPose>> frames;  ///< one for each of Sequence::frames
   std::size_t without_pose = 0;                  ///< frames that got none
   std::optional<GeodeticOrigin> origin;          ///< of geodetic poses
+  Rigid3 subject_from_camera;                    ///< where the camera sits on what the stated poses are of
+  std::filesystem::path source;                  ///< the file or folder that they come from
   std::string format;                            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table", "truth"
 };
 
