@@ -6,6 +6,7 @@
 #include "cairn/map/colmap_export.h"
 #include "cairn/report/landmark_ply.h"
 #include "cairn/sequence/given_poses.h"
+#include "cairn/survey/diagnosis.h"
 #include "cairn/survey/survey.h"
 #include "commands.h"
 #include "common.h"
@@ -63,14 +64,14 @@ int report_stop(const SurveyResult& result, const MapSummary& summary) {
 }
 
 /// A map without landmarks is no answer.
-int warn_if_empty(const SurveyResult& result) {
-  if (result.counts.landmarks > 0) return 0;
-  fmt::print(stderr,
-             "cairn map: not one landmark: {} tracks of features, {} in too few frames, {} that contradict "
-             "the poses.\n  Look at the calibration, the poses' frame ('cairn info SEQ') and "
-             "--pose-offset.\n",
-             result.counts.tracks, result.counts.too_short, result.counts.contradictory);
-  return 1;
+int report_quality(const SurveyResult& result, const SurveyOptions& options) {
+  if (result.counts.landmarks == 0) {
+    fmt::print(stderr, "cairn map: {}\n", explain_no_landmarks(result, options));
+    return 1;
+  }
+  if (const std::string said = describe_dominant_poses(result); !said.empty())
+    fmt::print(stderr, "cairn map: {}\n", said);
+  return 0;
 }
 
 }  // namespace
@@ -108,7 +109,7 @@ int run_map(int argc, char** argv) {
   summary.total_seconds = watch.seconds();
   arguments.common.json ? fmt::print("{}", format_map_json(result, summary))
                         : print_map_summary(result, summary);
-  return warn_if_empty(result);
+  return report_quality(result, parameters.survey);
 }
 
 }  // namespace cairn::app

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common.h"
@@ -15,6 +16,17 @@ using Json = nlohmann::ordered_json;
 
 double ratio(std::int64_t a, std::int64_t b) {
   return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
+}
+
+Json to_json(const PoseCheck& check) {
+  return {{"verdict", to_string(check.verdict)},
+          {"pairs", check.pairs},
+          {"rotation_by_images_deg", check.image_rotation_deg},
+          {"rotation_by_poses_deg", check.pose_rotation_deg},
+          {"motion_by_images_m", check.image_motion_m},
+          {"motion_by_poses_m", check.pose_motion_m},
+          {"motion_in_image_px", check.flow_px},
+          {"error_px", std::isfinite(check.error_px) ? Json(check.error_px) : Json()}};
 }
 
 Json to_json(const SurveyResult& result) {
@@ -36,6 +48,12 @@ Json to_json(const SurveyResult& result) {
   json["dropped_sightings"] = counts.dropped_sightings;
   json["noise"] = {{"variance_factor", result.noise.scale}, {"degrees_of_freedom", result.noise.freedom}};
   json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
+  json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},
+                         {"by_poses_rms_m", result.pose_std_rms_m},
+                         {"dominated_by_poses", counts.dominated_by_poses},
+                         {"stated_position_std_m", result.stated.position_m},
+                         {"stated_rotation_std_deg", result.stated.rotation_deg}};
+  json["pose_check"] = to_json(result.pose_check);
   return json;
 }
 
@@ -100,6 +118,9 @@ void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
   fmt::print("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
   fmt::print("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
              ratio(counts.sightings, counts.landmarks));
+  fmt::print(
+      "deviations   {:.2g} m by what the images leave open, {:.2g} m by the poses' (RMS, worst direction)\n",
+      result.image_std_rms_m, result.pose_std_rms_m);
   fmt::print("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
   fmt::print("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
              1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));

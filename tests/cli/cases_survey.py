@@ -40,6 +40,40 @@ def earlier_map(root):
     file("map/uvlist.txt", "of an earlier run")(root)
 
 
+def quaternion(row):
+    """x y z w of the rotation in a line of poses.txt, by its largest component."""
+    r = [row[0:3], row[4:7], row[8:11]]
+    signs = ((1, -1, -1), (-1, 1, -1), (-1, -1, 1), (1, 1, 1))
+    squares = [max(0.0, 1 + sum(s * r[i][i] for i, s in enumerate(sign))) / 4 for sign in signs]
+    k = squares.index(max(squares))
+    pairs = {(0, 1): r[0][1] + r[1][0], (0, 2): r[0][2] + r[2][0], (1, 2): r[1][2] + r[2][1],
+             (0, 3): r[2][1] - r[1][2], (1, 3): r[0][2] - r[2][0], (2, 3): r[1][0] - r[0][1]}
+    root = squares[k] ** 0.5
+    return [root if i == k else pairs[min(i, k), max(i, k)] / (4 * root) for i in range(4)]
+
+
+def as_tum(name, write):
+    """The street's poses in TUM format; `write` makes a line of time, position and quaternion x y z w."""
+    def make(root):
+        lines = []
+        for time_s, line in zip((root / "street/times.txt").read_text().split(), (root / "street/poses.txt").read_text().splitlines()):
+            row = [float(x) for x in line.split()]
+            lines.append(" ".join([time_s, *map(str, write(row[3::4], quaternion(row)))]))
+        (root / name).write_text("\n".join(lines) + "\n")
+    return make
+
+
+def rotate(q, v):
+    (x, y, z, w), (a, b, c) = q, v
+    tx, ty, tz = 2 * (y * c - z * b), 2 * (z * a - x * c), 2 * (x * b - y * a)
+    return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx]
+
+
+def inverse(t, q):
+    back = [-q[0], -q[1], -q[2], q[3]]
+    return [*(-x for x in rotate(back, t)), *back]
+
+
 FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Place.bin", "Point.bin", "config.yaml", "frames", "landmarks.ply", "map.json", "poses.txt", "report.json",
                                          "uvlist.txt", ".cairn"))
 
@@ -94,8 +128,18 @@ CASES = [
     Case("unfinished folder that is not ours", "map seq -o map", ("map.unfinished: expected a new or empty folder", "nothing in it was touched"),
          (SEQ, file("map.unfinished/thesis.tex", "years of work"))),
     Case("disk full", "map seq -o map", ("map.unfinished",), (SEQ,), file_limit=100),
+    # poses against images
+    Case("quaternions with qw first", "map street --poses p.txt -o map", ("p.txt: expected poses that move the camera as the images do", "qw qx qy qz", "px",
+                                                                          "Write them in the order qx qy qz qw."),
+         (street(), as_tum("p.txt", lambda t, q: [*t, q[3], *q[:3]]))),
+    Case("inverse poses", "map street --poses p.txt -o map", ("p.txt: expected poses that", "camera_from_world", "Write world_from_camera"),
+         (street(), as_tum("p.txt", inverse))),
+    Case("right poses in TUM format", f"map street --poses p.txt -o map --quiet {SMALL}", given=(street(), as_tum("p.txt", lambda t, q: [*t, *q])), code=0,
+         leaves=("map",), prints=("poses        TUM",)),
     # what it makes
-    Case("a wall without texture", "map seq -o map --quiet", ("cairn map: not one landmark", "--pose-offset"), (SEQ,), code=1, leaves=("map",)),
+    Case("a wall without texture", "map seq -o map --quiet", ("cairn map: not one landmark", "The images show no features"), (SEQ,), code=1, leaves=("map",)),
+    Case("limits that no landmark holds", f"map street -o map --quiet {SMALL} --set clean.max_std_m=1e-9",
+         ("cairn map: not one landmark", "fell to clean.max_std_m (1e-09 m"), (street(),), code=1, leaves=("map",)),
     Case("given poses", f"map street --poses street/poses.txt -o map --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),
          prints=("frames       10 of 10 mapped", "poses        KITTI", "landmarks    ")),
     Case("figures as JSON", f"map street -o map --json --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),

@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 import program
+import receivers
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -56,6 +57,59 @@ class Street(program.Quality):
         evaluation = self.figures("evaluate", "run", "street")
         self.assertLessEqual(evaluation["ate_rmse_m"], 0.10)
         self.assertAlmostEqual(evaluation["sim3"]["scale"], 1, delta=0.003)
+
+
+class Receiver(program.Quality):
+    """Maps from the poses of a receiver, with every kind of deviation."""
+
+    SMALL = ("--set", "window=6", "--set", "smooth_frames=3", "--set", "features=500", "--quiet")
+    PLACE, ANGLES = (0.02, 0.03, 0.05), (0.03, 0.04, 0.1)
+
+    def setUp(self):
+        super().setUp()
+        self.cairn("simulate", "street", "-o", "street", "--frames-count", "12", "--scale", "0.25", "--quiet")
+        self.drive = receivers.Drive(self.folder / "street")
+        info = self.figures("info", "street")
+        calibration = [info["camera"][name] for name in ("width", "height", "fx", "cx", "cy")] + [info["baseline_m"]]
+        for axes in ("frd", "flu"):
+            self.drive.write_camera(self.folder / f"{axes}.yaml", calibration, axes)
+
+    def map(self, name, poses, *options, axes="frd", code=0):
+        said = self.cairn("map", "street", "--camera", f"{axes}.yaml", "--poses", poses, "-o", name, *self.SMALL, *options, "--json", code=code)
+        return json.loads(said) if code == 0 else None
+
+    def test_each_kind_of_deviation_makes_a_map(self):
+        self.drive.write_oxts(self.folder / "oxts", 0.05)
+        self.assertGreater(self.map("packets", "oxts", axes="flu")["landmarks"], 200)
+        for geodetic in (True, False):
+            for place in (None, self.PLACE):
+                for angles in (None, self.ANGLES):
+                    self.drive.write_table(self.folder / "poses.csv", geodetic, place, angles)
+                    figures = self.map("map", "poses.csv")
+                    self.assertGreater(figures["landmarks"], 200)
+                    stated = figures["uncertainty"]
+                    self.assertAlmostEqual(stated["stated_rotation_std_deg"], 0.1 if angles else 0, places=2)
+                    self.assertEqual(stated["by_poses_rms_m"] > 0.05, bool(place or angles))
+                    self.assertEqual(self.figures("info", "map")["landmarks"], figures["landmarks"])
+
+    def test_deviations_of_a_metre_take_no_landmark_away(self):
+        self.drive.write_table(self.folder / "exact.csv", True)
+        self.drive.write_table(self.folder / "cheap.csv", True, (1.0, 1.0, 2.0))
+        exact, cheap = self.map("exact", "exact.csv"), self.map("cheap", "cheap.csv")
+        self.assertEqual(cheap["landmarks"], exact["landmarks"])
+        self.assertEqual(cheap["uncertainty"]["dominated_by_poses"], cheap["landmarks"])
+        self.assertAlmostEqual(cheap["uncertainty"]["by_poses_rms_m"], 2, places=3)
+
+    def test_a_heading_of_the_other_sign_is_named(self):
+        self.drive.write_table(self.folder / "poses.csv", True, self.PLACE)
+        lines = (self.folder / "poses.csv").read_text().splitlines()
+        rows = [line.split(",") for line in lines[1:]]
+        for row in rows:
+            row[6] = str(-float(row[6]))
+        (self.folder / "wrong.csv").write_text("\n".join([lines[0], *map(",".join, rows)]) + "\n")
+        self.map("map", "wrong.csv", code=2)
+        self.assertFalse((self.folder / "map").exists() or (self.folder / "map.unfinished").exists())
+        self.assertGreater(self.map("map", "poses.csv")["landmarks"], 200)
 
 
 class Small(program.Quality):

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cairn/geometry/covariance.h"
 #include "cairn/geometry/pose_equations.h"
 #include "cairn/optimize/robust_kernel.h"
 
@@ -78,8 +79,7 @@ void fill_statistics(const Problem& problem, Resection& result) {
   result.variance_factor = expected > kParameters ? squared / (expected - kParameters) : 1.0;
   constexpr double kNoKernel = std::numeric_limits<double>::infinity();
   const Matrix6d information = build(problem, result.inliers, result.camera_from_world, kNoKernel).hessian;
-  result.covariance = information.ldlt().solve(Matrix6d::Identity());
-  result.covariance = 0.5 * (result.covariance + result.covariance.transpose()).eval();
+  result.covariance = as_covariance(information.ldlt().solve(Matrix6d::Identity()));
 }
 
 }  // namespace

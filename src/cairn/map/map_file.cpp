@@ -5,6 +5,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/geometry/unit_rotation.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/map/map_writer.h"
@@ -66,8 +67,7 @@ LandmarkView stored_view(const Keyframe& keyframe, std::size_t feature) {
 
 FinishedLandmark finished(const Map& map, const Landmark& landmark, const Eigen::Matrix3d& covariance,
                           const Selection& selection, const DescriptorKind& kind) {
-  FinishedLandmark result{
-      landmark.point_in_world, 0.5 * (covariance + covariance.transpose()), landmark.sightings, {}, {}, {}};
+  FinishedLandmark result{landmark.point_in_world, as_covariance(covariance), landmark.sightings, {}, {}, {}};
   result.descriptors = Descriptors(kind.norm, kind.bytes, landmark.sightings.size());
   std::vector<LandmarkView> views;
   for (std::size_t i = 0; i < landmark.sightings.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/optimize/bundle_equations.h"
 #include "cairn/optimize/bundle_structure.h"
 
@@ -88,7 +89,7 @@ std::vector<char> find_inliers(const BundleProblem& problem) {
 }
 
 Eigen::Matrix3d covariance_of(const PointSums& sums) {
-  if (sums.determine_point()) return sums.information.inverse();
+  if (sums.determine_point()) return as_covariance(sums.information.inverse());
   return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/geometry/pose_equations.h"
 
 namespace cairn {
@@ -79,7 +80,7 @@ class Fit {
     if (!normal.solve()) return PoseFitStatus::undetermined;
     std::size_t measured = 0;
     for (const Observation& observation : seen_) measured += observation.has_disparity() ? 3 : 2;
-    result_.covariance = normal.hessian.inverse();
+    result_.covariance = as_covariance(normal.hessian.inverse());
     result_.variance_factor = 2.0 * result_.cost / static_cast<double>(measured - 6);
     return PoseFitStatus::ok;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 
 namespace cairn {
 
@@ -18,8 +19,8 @@ void move_to_origin(const GeodeticOrigin& origin, RecordedPoses& recorded) {
     local.Forward(place.x(), place.y(), place.z(), place.x(), place.y(), place.z(), rows);
     const Eigen::Matrix3d turn = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rows.data());
     pose.rotation = (Eigen::Quaterniond(turn) * pose.rotation).normalized();
-    pose.place_covariance = turn * pose.place_covariance * turn.transpose();
-    pose.rotation_covariance = turn * pose.rotation_covariance * turn.transpose();
+    pose.place_covariance = propagate_covariance(turn, pose.place_covariance);
+    pose.rotation_covariance = propagate_covariance(turn, pose.rotation_covariance);
   }
   recorded.geodetic = false;
 }

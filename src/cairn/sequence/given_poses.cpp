@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/sequence/geodetic.h"
 #include "cairn/sequence/pose_jumps.h"
 #include "cairn/sequence/recorded_poses.h"
@@ -258,7 +259,7 @@ PoseUncertainty uncertainty_at(const RecordedPose& body, const Eigen::Vector3d& 
   PoseUncertainty uncertainty;
   uncertainty.rotation = body.rotation_covariance;
   uncertainty.position_rotation = by_rotation * body.rotation_covariance;
-  uncertainty.position = body.place_covariance + uncertainty.position_rotation * by_rotation.transpose();
+  uncertainty.position = body.place_covariance + propagate_covariance(by_rotation, body.rotation_covariance);
   return uncertainty;
 }
 
@@ -278,6 +279,8 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
   if (recorded.key == PoseKey::stamp)
     given.time_offset_s = 1e-9 * static_cast<double>(shift_stamps(sequence, options, recorded));
   const PoseSpans spans = spans_of_frames(sequence, recorded, options, given.time_offset_s);
+  given.source = recorded.source;
+  given.subject_from_camera = body_from_camera;
   given.format = recorded.format;
   given.warnings = recorded.warnings;
   warn_of_open_subject(sequence, recorded, given);

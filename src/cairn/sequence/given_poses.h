@@ -45,6 +45,8 @@ struct GivenPoses {
   std::vector<std::optional<GivenPose>> frames;  ///< one for each of Sequence::frames
   std::size_t without_pose = 0;                  ///< frames that got none
   std::optional<GeodeticOrigin> origin;          ///< of geodetic poses
+  Rigid3 subject_from_camera;                    ///< where the camera sits on what the stated poses are of
+  std::filesystem::path source;                  ///< the file or folder that they come from
   std::string format;                            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table", "truth"
   double time_offset_s = 0;                      ///< that was added to the poses' stamps
   std::vector<std::string> warnings;             ///< what a person should know, a sentence each

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/sequence/attitude.h"
 #include "cairn/sequence/geodetic.h"
 #include "cairn/sequence/pose_collector.h"
@@ -41,7 +42,7 @@ RecordedPose parse_row(const TableRow& row, const RowKeys& keys, const TableHead
   if (header.has(kAngleDeviations)) {
     const Eigen::Matrix3d turn = enu_from_ned().toRotationMatrix() * turn_by_angles(ned_from_body);
     pose.rotation_covariance =
-        turn * covariance_of(kRadian * row.deviations(kAngleDeviations, 180)) * turn.transpose();
+        propagate_covariance(turn, covariance_of(kRadian * row.deviations(kAngleDeviations, 180)));
   }
   return pose;
 }

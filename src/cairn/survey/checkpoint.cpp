@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/survey/checkpoint.h"
 
+#include <array>
+
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/spool.h"
@@ -9,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kKind{"CAIRNSVY", 1};
+constexpr BinaryKind kKind{"CAIRNSVY", 2};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
@@ -147,8 +149,14 @@ std::vector<std::int64_t*> fields_of(SurveyCounts& counts) {
                                     &counts.matched,       &counts.tracks,           &counts.too_short,
                                     &counts.contradictory, &counts.dropped_sightings};
   for (std::int64_t& cleaned : counts.cleaned) fields.push_back(&cleaned);
-  fields.insert(fields.end(), {&counts.merged, &counts.landmarks, &counts.sightings});
+  fields.insert(fields.end(),
+                {&counts.merged, &counts.landmarks, &counts.sightings, &counts.dominated_by_poses});
   return fields;
+}
+
+std::array<double*, 4> sums_of(SurveyCounts& counts) {
+  return {&counts.moved_squared_m, &counts.turned_squared_rad, &counts.image_variance_m2,
+          &counts.pose_variance_m2};
 }
 
 void put(const VarianceModel::Sums& sums, ByteWriter& writer) {
@@ -204,8 +212,7 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
-  state.counts.moved_squared_m = reader.get<double>();
-  state.counts.turned_squared_rad = reader.get<double>();
+  for (double* sum : sums_of(state.counts)) *sum = reader.get<double>();
   const auto count = reader.get<std::uint64_t>();
   std::vector<SurveyFrame> frames;
   for (std::uint64_t i = 0; i < count; ++i) frames.push_back(get_frame(reader));
@@ -229,8 +236,7 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   put(state.variance.sums(), writer);
   SurveyCounts counts = state.counts;
   for (const std::int64_t* field : fields_of(counts)) writer.put(*field);
-  writer.put(counts.moved_squared_m);
-  writer.put(counts.turned_squared_rad);
+  for (const double* sum : sums_of(counts)) writer.put(*sum);
   writer.put(static_cast<std::uint64_t>(state.frames.size()));
   for (const SurveyFrame& frame : state.frames.all()) put(frame, writer);
   const std::filesystem::path next = folder / kNextName;

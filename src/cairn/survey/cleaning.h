@@ -16,10 +16,11 @@ namespace cairn {
 enum class CleaningRule { frames, position_std, rms, ray_angle, depth, distance, lateral, view_angle };
 constexpr std::size_t kCleaningRules = 8;
 
-/// "fewer frames than 3" and so on, without the number.
+/// Returns the name of the rule, for reports: "frames", "position_std", ..., "view_angle".
 [[nodiscard]] std::string_view to_string(CleaningRule rule);
 
-/// The first rule that the landmark falls to; nothing where it holds against all.
+/// Returns the first rule that the landmark falls to, or nothing if it holds against all. `covariance` is the
+/// landmark's own (SurveyLandmark::own_covariance), square metres.
 [[nodiscard]] std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
                                                       const Eigen::Matrix3d& covariance,
                                                       const CleaningOptions& options);

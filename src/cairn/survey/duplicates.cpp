@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "cairn/features/matching.h"
+#include "cairn/survey/cleaning.h"
 
 namespace cairn {
 namespace {
@@ -47,20 +48,15 @@ class CellIndex {
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// The covariance that tells two landmarks apart: the poses' errors move both alike.
-Eigen::Matrix3d own_covariance(const SurveyLandmark& landmark) {
-  return landmark.variance_factor * landmark.cofactor;
-}
-
 double total_std(const SurveyLandmark& landmark) {
-  return std::sqrt(own_covariance(landmark).trace());
+  return std::sqrt(landmark.own_covariance().trace());
 }
 
 bool is_same_place(const SurveyLandmark& a, const SurveyLandmark& b, double sigmas) {
   const Eigen::Vector3d difference = a.point_in_world - b.point_in_world;
   const double reach = total_std(a) + total_std(b);
   if (difference.squaredNorm() > sigmas * sigmas * reach * reach) return false;
-  const Eigen::Matrix3d covariance = own_covariance(a) + own_covariance(b);
+  const Eigen::Matrix3d covariance = a.own_covariance() + b.own_covariance();
   return difference.dot(covariance.inverse() * difference) <= sigmas * sigmas;
 }
 
@@ -98,9 +94,11 @@ std::vector<Sighting> joined_sightings(const SurveyLandmark& a, const SurveyLand
   return joined;
 }
 
-/// One landmark from two, where nearly all sightings agree.
-std::optional<SurveyLandmark> joined(const Rig& rig, const FrameBuffer& frames, const SurveyLandmark& a,
-                                     const SurveyLandmark& b, const SurveyOptions& options) {
+/// Returns one landmark made of two, or nothing if not nearly all sightings agree or the one breaks a limit
+/// of cleaning that both may well hold.
+std::optional<SurveyLandmark> joined(const MergeInput& input, const SurveyLandmark& a,
+                                     const SurveyLandmark& b) {
+  const auto& [rig, frames, prior, options] = input;
   constexpr double kMinKept = 0.9;
   const std::vector<Sighting> sightings = joined_sightings(a, b);
   if (static_cast<int>(sightings.size()) >= options.tracks.max_frames) return std::nullopt;
@@ -108,13 +106,14 @@ std::optional<SurveyLandmark> joined(const Rig& rig, const FrameBuffer& frames, 
   if (!landmark ||
       static_cast<double>(landmark->sightings.size()) < kMinKept * static_cast<double>(sightings.size()))
     return std::nullopt;
+  complete_covariance(frames, prior, options.covariance.pose_errors, *landmark);
+  if (failed_rule(landmark->indicators, landmark->own_covariance(), options.cleaning)) return std::nullopt;
   return landmark;
 }
 
 }  // namespace
 
-std::int64_t merge_duplicates(const Rig& rig, const FrameBuffer& frames, const VariancePrior& prior,
-                              std::vector<SurveyLandmark>&& added, const SurveyOptions& options,
+std::int64_t merge_duplicates(const MergeInput& input, std::vector<SurveyLandmark>&& added,
                               std::vector<SurveyLandmark>& pending) {
   CellIndex index;
   double largest = 0;
@@ -122,17 +121,16 @@ std::int64_t merge_duplicates(const Rig& rig, const FrameBuffer& frames, const V
     index.add(pending[i].point_in_world, i);
     largest = std::max(largest, total_std(pending[i]));
   }
-  const double sigmas = options.cleaning.duplicate_sigmas;
+  const double sigmas = input.options.cleaning.duplicate_sigmas;
   std::int64_t merged = 0;
   for (SurveyLandmark& landmark : added) {
     const double reach = sigmas * (total_std(landmark) + largest);
     bool is_new = true;
     for (const std::size_t i : index.near(landmark.point_in_world, reach)) {
-      if (!is_same_place(pending[i], landmark, sigmas) || !looks_the_same(frames, pending[i], landmark))
+      if (!is_same_place(pending[i], landmark, sigmas) || !looks_the_same(input.frames, pending[i], landmark))
         continue;
-      auto both = joined(rig, frames, pending[i], landmark, options);
+      auto both = joined(input, pending[i], landmark);
       if (!both) continue;
-      complete_covariance(frames, prior, options.covariance.pose_errors, *both);
       index.remove(pending[i].point_in_world, i);
       pending[i] = std::move(*both);
       index.add(pending[i].point_in_world, i);

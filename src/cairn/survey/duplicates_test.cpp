@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cairn/survey/test_drive.h"
@@ -28,7 +29,7 @@ class MergeDuplicates : public testing::Test {
     return *fitted;
   }
   std::int64_t merge(std::vector<SurveyLandmark>&& added) {
-    return merge_duplicates(kDriveRig, frames_, prior_, std::move(added), options_, pending_);
+    return merge_duplicates({kDriveRig, frames_, prior_, options_}, std::move(added), pending_);
   }
 
   FrameBuffer frames_ = test::drive(points(), 14, 0.3);
@@ -102,6 +103,23 @@ TEST_F(MergeDuplicates, a_chain_becomes_one) {
   ASSERT_EQ(pending_.size(), 1U);
   EXPECT_EQ(pending_[0].sightings.size(), 13U);
   EXPECT_EQ(pending_[0].sightings.back(), (Sighting{{12}, 2}));
+}
+
+TEST_F(MergeDuplicates, what_would_break_a_limit_of_cleaning_stays_two) {
+  const SurveyLandmark early = landmark(0, 0, 5), late = landmark(1, 6, 11);
+  std::vector<SurveyLandmark> both{early};
+  EXPECT_EQ(merge_duplicates({kDriveRig, frames_, prior_, options_}, {late}, both), 1);
+  const LandmarkIndicators merged = both.front().indicators;
+  const double worst_alone = std::max(early.indicators.rms_px, late.indicators.rms_px);
+  const double depth_alone = std::max(early.indicators.depth.std, late.indicators.depth.std);
+  ASSERT_GT(merged.depth.std, depth_alone);  // each one's hold against the limits between
+  options_.cleaning.depth.max_std = (merged.depth.std + depth_alone) / 2;
+  EXPECT_EQ(merge({early, late}), 0);
+  ASSERT_EQ(pending_.size(), 2U);
+  options_.cleaning.depth.max_std.reset();
+  pending_.clear();
+  options_.cleaning.max_rms_px = std::min(merged.rms_px, worst_alone) * 0.99;
+  EXPECT_EQ(merge({early, late}), 0);
 }
 
 TEST_F(MergeDuplicates, no_sigmas_no_merging) {

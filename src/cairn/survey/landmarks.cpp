@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <map>
 
+#include "cairn/geometry/covariance.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/optimize/landmark_fit.h"
 #include "cairn/survey/pose_smoothing.h"
@@ -68,7 +69,8 @@ void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track>
 Eigen::Matrix3d covariance_at(const PoseUncertainty& pose, const Eigen::Vector3d& lever) {
   const Eigen::Matrix3d by_rotation = skew(-lever);
   const Eigen::Matrix3d both = pose.position_rotation * by_rotation.transpose();
-  return pose.position + by_rotation * pose.rotation * by_rotation.transpose() + both + both.transpose();
+  return as_covariance(pose.position + by_rotation * pose.rotation * by_rotation.transpose() + both +
+                       both.transpose());
 }
 
 Eigen::Matrix3d pose_covariance_of(const FrameBuffer& frames, const SurveyLandmark& landmark) {

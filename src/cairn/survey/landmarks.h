@@ -23,7 +23,10 @@ struct SurveyLandmark {
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< what the poses' errors add, square metres
   LandmarkIndicators indicators;
 
-  [[nodiscard]] Eigen::Matrix3d covariance() const { return variance_factor * cofactor + pose_covariance; }
+  /// What the images leave open. It tells landmarks apart: the errors of poses move neighbours alike.
+  [[nodiscard]] Eigen::Matrix3d own_covariance() const { return variance_factor * cofactor; }
+  /// Of the point in the world.
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return own_covariance() + pose_covariance; }
 };
 
 /// What became of tracks.

@@ -45,8 +45,10 @@ struct SpreadLimits {
 /// Which landmarks are worth keeping.
 struct CleaningOptions {
   int min_frames = 3;  ///< two agree by chance along the line; a third confirms or refutes
-  double max_std_m =
-      0.5;  ///< along the worst direction: a camera resected by less certain ones gains nothing
+  /// Metres, along the worst direction, by the landmark's own covariance, that is, without what the given
+  /// poses' deviations add: a camera that is resected by less certain ones gains nothing, whereas the errors
+  /// of poses move neighbouring landmarks alike.
+  double max_std_m = 0.5;
   double max_rms_px = 1.5;  ///< three times what good features have: something moved, or two things were one
   double min_ray_angle_deg =
       0.2;  ///< largest angle between two rays: below, the depth rests on the disparity alone

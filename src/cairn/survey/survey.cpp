@@ -6,11 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "cairn/core/checksum.h"
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/frontend/frontend.h"
 #include "cairn/survey/checkpoint.h"
+#include "cairn/survey/diagnosis.h"
+#include "cairn/survey/identity.h"
 #include "cairn/survey/surveyor.h"
 
 namespace cairn {
@@ -24,24 +25,6 @@ void check(const SurveyInput& input) {
       {input.sequence.folder.string(), 0, "a stereo or an RGB-D sequence", "images of one camera",
        "A landmark's distance comes from a second image or a depth image: camera.yaml needs a section "
        "'right' or 'depth'."});
-}
-
-void append_bytes(const Rigid3& pose, std::string& text) {
-  text.append(reinterpret_cast<const char*>(pose.translation.data()), 3 * sizeof(double));
-  text.append(reinterpret_cast<const char*>(pose.rotation.coeffs().data()), 4 * sizeof(double));
-}
-
-/// Stands for all that the map depends on: another number, another map.
-std::uint32_t identity_of(const SurveyInput& input) {
-  const Sequence& sequence = input.sequence;
-  std::string text = input.settings + format_calibration(sequence.calibration);
-  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
-    const FrameFiles& files = sequence.frames[i];
-    text += fmt::format("{} {} {} {} {}\n", files.stamp_ns, files.number, files.color.string(),
-                        files.depth.string(), files.right.string());
-    if (input.poses.frames[i]) append_bytes(input.poses.frames[i]->world_from_camera, text);
-  }
-  return crc32(text);
 }
 
 /// Norm and size of descriptors as the extractor makes them.
@@ -77,28 +60,70 @@ class Run {
         frontend_(input.sequence, options.observer) {}
 
   SurveyResult operator()() {
-    begin();
-    follow();
-    if (!result_.stopped) {
-      require_frames();
-      surveyor_->finish(executor_);
-      writer_->finish();
-      MapWriter::discard_spools(folder_);
-      remove_checkpoint(folder_);
+    try {
+      check_given_poses();
+      begin();
+      follow();
+      if (!result_.stopped) finish();
+      return summarise();
+    } catch (const InputError&) {
+      // What was kept is sound unless this run came from it: a full disk can be emptied.
+      if (result_.resumed_at > 0) discard_kept();
+      throw;
+    } catch (...) {
+      discard_kept();
+      throw;
     }
-    return summarise();
   }
 
  private:
+  /// A run that failed for a reason of its own fails again from what it kept: the next one begins anew.
+  void discard_kept() {
+    if (!has_checkpoint(folder_)) return;
+    remove_checkpoint(folder_);
+    progress_.warn(
+        "the work that was kept is discarded, since this run failed: the same command begins anew");
+  }
+
+  void check_given_poses() {
+    PoseCheck& check = result_.pose_check;
+    check = check_poses(input_.sequence, input_.poses, options_.observer, executor_);
+    refuse_misread(check, input_.sequence, input_.poses);
+    if (check.verdict != PoseVerdict::contradiction) return;
+    progress_.warn(
+        fmt::format("the given poses contradict the images: {}. No misreading that is known explains "
+                    "it; look at their noise, their clock (--pose-offset) and the calibration",
+                    describe(check)));
+  }
+
   void begin() {
     const MapHeader header = header_of(input_, rig_, options_);
     auto checkpoint =
         read_checkpoint(folder_, identity_, [&](std::vector<SurveyFrame>& frames) { observe_again(frames); });
-    writer_ = checkpoint ? std::make_unique<MapWriter>(folder_, header, checkpoint->writer)
-                         : std::make_unique<MapWriter>(folder_, header);
+    if (checkpoint) checkpoint = open_kept(header, std::move(*checkpoint));
+    if (!checkpoint) writer_ = std::make_unique<MapWriter>(folder_, header);
     SurveyState state = checkpoint ? std::move(checkpoint->state) : SurveyState{};
     result_.resumed_at = static_cast<std::int64_t>(state.next_in_sequence);
     surveyor_ = std::make_unique<Surveyor>(rig_, options_, std::move(state), *writer_);
+  }
+
+  /// Returns nothing if a piece of the map that the checkpoint belongs to was changed or lost.
+  std::optional<Checkpoint> open_kept(const MapHeader& header, Checkpoint&& checkpoint) {
+    try {
+      writer_ = std::make_unique<MapWriter>(folder_, header, checkpoint.writer);
+      return std::move(checkpoint);
+    } catch (const InputError& error) {
+      progress_.warn(fmt::format("begins anew, as the work that was kept is damaged: {}", error.what()));
+      return std::nullopt;
+    }
+  }
+
+  void finish() {
+    require_frames();
+    surveyor_->finish(executor_);
+    writer_->finish();
+    MapWriter::discard_spools(folder_);
+    remove_checkpoint(folder_);
   }
 
   void observe_again(std::vector<SurveyFrame>& frames) const {
@@ -164,6 +189,7 @@ class Run {
   SurveyResult summarise() {
     const SurveyState& state = surveyor_->state();
     const SurveyTimes& times = surveyor_->times();
+    result_.stated = stated_deviations(input_.poses);
     result_.counts = state.counts;
     result_.times.matching = times.matching;
     result_.times.adjustment = times.adjustment;
@@ -173,6 +199,9 @@ class Run {
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;
+    const auto landmarks = static_cast<double>(std::max<std::int64_t>(1, state.counts.landmarks));
+    result_.image_std_rms_m = std::sqrt(state.counts.image_variance_m2 / landmarks);
+    result_.pose_std_rms_m = std::sqrt(state.counts.pose_variance_m2 / landmarks);
     return result_;
   }
 

@@ -5,105 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
 
+#include "cairn/core/random.h"
 #include "cairn/image/codec.h"
-#include "cairn/map/test_map.h"
-#include "cairn/sequence/simulate_street.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/map/uvlist.h"
+#include "cairn/survey/test_street.h"
 
 namespace cairn {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr int kFrames = 26;
-
-SimulateStreetOptions street_options() {
-  SimulateStreetOptions options;
-  options.frames_count = kFrames;
-  options.camera = {CameraModel::pinhole, 414, 125, 240, 240, 203, 57, {}};
-  options.seed = 5;
-  return options;
-}
-
-/// So small a window that frames and landmarks are written on the way.
-SurveyOptions small_window() {
-  SurveyOptions options;
-  options.observer.features.count = 500;
-  options.tracks.window = 6;
-  options.tracks.smooth_frames = 3;
-  options.tracks.max_frames = 10;
-  return options;
-}
-
-/// Stops after some updates, and remembers what it was told.
-class Watcher : public Progress {
- public:
-  explicit Watcher(int updates_before_stop = kFrames + 1) : updates_left_(updates_before_stop) {}
-  void update(std::int64_t done) override {
-    --updates_left_;
-    last_update = done;
-  }
-  void warn(const std::string& message) override { warnings.push_back(message); }
-  [[nodiscard]] bool stop_requested() const override { return updates_left_ <= 0; }
-
-  std::vector<std::string> warnings;
-  std::int64_t last_update = 0;
-
- private:
-  int updates_left_;
-};
-
-/// A simulated street with exact poses in a folder of its own, made once for all tests; each test works on a
-/// copy of the lists, and maps into a folder of its own.
-class SurveyTest : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    street_ = fs::temp_directory_path() / ("cairn_survey_test_" + std::to_string(::getpid()));
-    fs::create_directories(street_);
-    const Executor executor(2);
-    Progress silent;
-    (void)write_kitti(SimulatedStreet(street_options(), executor), street_, false, executor, silent);
-  }
-  static void TearDownTestSuite() { fs::remove_all(street_); }
-
-  SurveyTest() : sequence_(open_sequence(street_)), poses_(read_given_poses(sequence_)) {}
-
-  SurveyResult survey(const std::string& name, int threads = 2, Progress* progress = nullptr) const {
-    Progress silent;
-    fs::create_directories(folder(name));
-    return run_survey({sequence_, poses_, "settings: some\n"}, options_, folder(name), Executor(threads),
-                      progress != nullptr ? *progress : silent);
-  }
-  [[nodiscard]] fs::path folder(const std::string& name) const { return scratch_.path() / name; }
-  void forget_pose(std::size_t frame) {
-    poses_.frames[frame].reset();
-    ++poses_.without_pose;
-  }
-  /// Shows `frame` once more where it was, a moment later.
-  void stand_at(std::size_t frame) {
-    const auto at = static_cast<std::ptrdiff_t>(frame);
-    FrameFiles again = sequence_.frames[frame];
-    ++again.stamp_ns;
-    sequence_.frames.insert(sequence_.frames.begin() + at + 1, again);
-    const std::optional<GivenPose> pose = poses_.frames[frame];
-    poses_.frames.insert(poses_.frames.begin() + at + 1, pose);
-  }
-  [[nodiscard]] fs::path damaged_image() const {
-    write_file(scratch_.path() / "damaged.png", "no image");
-    return scratch_.path() / "damaged.png";
-  }
-
-  static fs::path street_;
-  const TestFolder scratch_;
-  Sequence sequence_;
-  GivenPoses poses_;
-  SurveyOptions options_ = small_window();
-};
-
-fs::path SurveyTest::street_;
 
 /// The depth nearest to `depth` within a pixel of where a point is seen; 0 where only the sky is.
 double surface_near(const DepthImage& truth, const Eigen::Vector3d& pixel, double depth) {
@@ -182,45 +92,67 @@ TEST_F(SurveyTest, is_the_same_at_any_number_of_threads) {
   }
 }
 
-TEST_F(SurveyTest, goes_on_where_it_was_stopped) {
-  const SurveyResult whole = survey("whole");
-  const auto expected = contents_of(folder("whole"));
-  for (const int updates : {1, 7, 15, kFrames - 1}) {
-    const std::string name = "stopped_" + std::to_string(updates);
-    Watcher stop(updates);
-    const SurveyResult stopped = survey(name, 2, &stop);
-    EXPECT_TRUE(stopped.stopped);
-    EXPECT_TRUE(has_unfinished_survey(folder(name)));
-    EXPECT_EQ(stop.last_update, updates);
-    const SurveyResult resumed = survey(name, 1);
-    EXPECT_FALSE(resumed.stopped);
-    EXPECT_EQ(resumed.resumed_at, updates);
-    EXPECT_EQ(resumed.counts.landmarks, whole.counts.landmarks);
-    EXPECT_EQ(resumed.counts.tracks, whole.counts.tracks);
-    EXPECT_EQ(resumed.counts.moved_squared_m, whole.counts.moved_squared_m);
-    EXPECT_TRUE(contents_of(folder(name)) == expected) << updates;
-  }
-}
-
-TEST_F(SurveyTest, goes_on_as_often_as_it_was_stopped) {
-  (void)survey("whole");
-  int runs = 0;
-  for (bool stopped = true; stopped; ++runs) {
-    Watcher stop(9);
-    stopped = survey("pieces", 2, &stop).stopped;
-  }
-  EXPECT_EQ(runs, 3);
-  EXPECT_TRUE(contents_of(folder("pieces")) == contents_of(folder("whole")));
-}
-
-TEST_F(SurveyTest, another_input_begins_anew) {
-  Watcher stop(12);
-  (void)survey("map", 2, &stop);
-  poses_.frames[3]->world_from_camera.translation.x() += 1e-9;
+TEST_F(SurveyTest, covariances_that_are_symmetric_up_to_rounding_make_a_map) {
+  PoseUncertainty uncertainty;
+  uncertainty.position << 4e-4, 1e-4, 2e-5, 1e-4 + 1e-20, 9e-4, 3e-5, 2e-5, 3e-5 - 4e-21, 1e-3;
+  uncertainty.rotation << 3e-7, 1e-8, 2e-8, 1e-8 + 2e-24, 4e-7, 0, 2e-8, 0, 1e-6;
+  for (auto& pose : poses_.frames) pose->uncertainty = uncertainty;
   const SurveyResult result = survey("map");
-  EXPECT_EQ(result.resumed_at, 0);
-  (void)survey("whole");
-  EXPECT_TRUE(contents_of(folder("map")) == contents_of(folder("whole")));
+  EXPECT_GT(result.counts.landmarks, 300);
+  for (const Eigen::Matrix3d& covariance : read_covariances(folder("map")))
+    EXPECT_EQ(covariance, Eigen::Matrix3d(covariance.transpose()));
+}
+
+TEST_F(SurveyTest, deviations_of_a_metre_take_no_landmark_away) {
+  const std::int64_t exact = survey("exact").counts.landmarks;
+  PoseUncertainty cheap;
+  cheap.position = Eigen::Vector3d(1, 1, 4).asDiagonal();
+  for (auto& pose : poses_.frames) pose->uncertainty = cheap;
+  const SurveyResult result = survey("cheap");
+  EXPECT_EQ(result.counts.landmarks, exact);
+  EXPECT_EQ(result.counts.dominated_by_poses, exact);
+  EXPECT_NEAR(result.pose_std_rms_m, 2, 1e-9);
+  EXPECT_LT(result.image_std_rms_m, 0.5);
+  EXPECT_EQ(result.stated.position_m, 2);
+  for (const Eigen::Matrix3d& covariance : read_covariances(folder("cheap"))) EXPECT_GT(covariance(2, 2), 4);
+}
+
+TEST_F(SurveyTest, every_landmark_holds_against_every_limit) {
+  options_.cleaning.max_rms_px = 0.45;
+  options_.cleaning.depth.max_std = 4;
+  options_.cleaning.angle_deg.max_std = 3;
+  options_.cleaning.lateral.max_mean = 8;
+  const SurveyResult result = survey("map");
+  EXPECT_GT(result.counts.merged, 0);
+  std::int64_t rows = 0;
+  UvlistStream table(folder("map") / "uvlist.txt", std::nullopt);
+  while (const auto* row = table.next()) {
+    const auto value = [&](const std::string& name) {
+      const auto& columns = uvlist_columns();
+      return (
+          *row)[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin())];
+    };
+    constexpr double kRounding = 1 + 1e-5;  // the table has six digits
+    EXPECT_LE(value("rms_px"), 0.45 * kRounding);
+    EXPECT_LE(value("std_depth"), 4 * kRounding);
+    EXPECT_LE(value("std_angle_deg"), 3 * kRounding);
+    EXPECT_LE(value("mean_lateral"), 8 * kRounding);
+    EXPECT_GE(value("frames"), 3);
+    ++rows;
+  }
+  EXPECT_EQ(rows, result.counts.landmarks);
+}
+
+TEST_F(SurveyTest, misread_poses_are_refused) {
+  for (auto& pose : poses_.frames)
+    pose->world_from_camera = WorldFromCamera(Rigid3(pose->world_from_camera).inverse());
+  try {
+    (void)survey("map");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("inverse poses"), std::string::npos) << error.what();
+  }
+  EXPECT_FALSE(has_unfinished_survey(folder("map")));
 }
 
 TEST_F(SurveyTest, frames_without_a_pose_are_left_out) {
@@ -268,15 +200,6 @@ TEST_F(SurveyTest, not_one_readable_frame_is_bad_input) {
   }
 }
 
-TEST_F(SurveyTest, an_image_changed_meanwhile_begins_anew) {
-  fs::copy(sequence_.frames[5].color, folder("5.png"));
-  sequence_.frames[5].color = folder("5.png");
-  Watcher stop(8);
-  (void)survey("map", 2, &stop);
-  write_png(folder("5.png"), GrayImage(414, 125, 90));  // without features
-  EXPECT_EQ(survey("map").resumed_at, 0);
-}
-
 TEST_F(SurveyTest, one_camera_without_depth_is_refused) {
   sequence_.calibration.baseline.reset();
   try {
@@ -307,9 +230,17 @@ TEST_F(SurveyTest, images_without_texture_make_a_map_without_landmarks) {
 }
 
 TEST_F(SurveyTest, wrong_poses_make_no_landmarks) {
-  // As with the poses of another drive: each frame gets that of a frame far away, backwards.
-  std::reverse(poses_.frames.begin(), poses_.frames.end());
-  EXPECT_LT(survey("map").counts.landmarks, 30);
+  // As with the poses of another drive, sideways.
+  Random random(3);
+  for (auto& pose : poses_.frames)
+    pose->world_from_camera.translation +=
+        9 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+  Watcher watcher;
+  const SurveyResult result = survey("map", 2, &watcher);
+  EXPECT_LT(result.counts.landmarks, 30);
+  EXPECT_EQ(result.pose_check.verdict, PoseVerdict::contradiction);
+  ASSERT_EQ(watcher.warnings.size(), 1U);
+  EXPECT_NE(watcher.warnings[0].find("contradict the images"), std::string::npos) << watcher.warnings[0];
 }
 
 TEST_F(SurveyTest, there_is_a_pose_or_none_for_each_frame) {

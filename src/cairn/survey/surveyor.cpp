@@ -42,6 +42,14 @@ std::int64_t count_measured(const ObservedFrame& observed) {
                        [](const Observation& seen) { return seen.has_disparity(); });
 }
 
+void count_uncertainty(const SurveyLandmark& landmark, SurveyCounts& counts) {
+  const double by_images = largest_std(landmark.own_covariance()),
+               by_poses = largest_std(landmark.pose_covariance);
+  counts.image_variance_m2 += by_images * by_images;
+  counts.pose_variance_m2 += by_poses * by_poses;
+  counts.dominated_by_poses += by_poses > by_images ? 1 : 0;
+}
+
 }  // namespace
 
 Surveyor::Surveyor(const Rig& rig, const SurveyOptions& options, SurveyState&& state, MapWriter& writer)
@@ -119,8 +127,9 @@ void Surveyor::resolve(const std::vector<Track>& finished, const Executor& execu
     state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
   std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
   times_.adjustment += watch.lap();
-  counts.merged += merge_duplicates(rig_, state_.frames, state_.variance.prior(), std::move(cleaned),
-                                    options_, state_.pending);
+  const VariancePrior prior = state_.variance.prior();
+  counts.merged +=
+      merge_duplicates({rig_, state_.frames, prior, options_}, std::move(cleaned), state_.pending);
   times_.merging += watch.lap();
 }
 
@@ -129,7 +138,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
   std::vector<SurveyLandmark> kept;
   for (SurveyLandmark& landmark : landmarks) {
     complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
-    const auto rule = failed_rule(landmark.indicators, landmark.covariance(), options_.cleaning);
+    const auto rule = failed_rule(landmark.indicators, landmark.own_covariance(), options_.cleaning);
     rule ? void(++state_.counts.cleaned[static_cast<std::size_t>(*rule)])
          : kept.push_back(std::move(landmark));
   }
@@ -170,6 +179,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
     ++state_.next_landmark.value;
     ++state_.counts.landmarks;
     state_.counts.sightings += static_cast<std::int64_t>(landmark.sightings.size());
+    count_uncertainty(landmark, state_.counts);
   }
   state_.pending = std::move(later);
   times_.writing += watch.lap();
