@@ -89,7 +89,8 @@ class Small(program.Quality):
         self.cairn("simulate", "room", "-o", "long", "--frames-count", "200", "--scale", "0.5", "--quiet")
         process = subprocess.Popen([sys.argv[1], "slam", "long", "-o", "run", "--threads", "1", "--json"], cwd=self.folder,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
+        while process.poll() is None and program.processor_seconds(process.pid) < 1.0:
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=program.TIME_LIMIT_S)
         self.assertEqual(process.returncode, 0, errors)
