@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace cairn::app {
 struct EvaluateArguments {
   CommonOptions common;
   std::vector<std::string> estimates;
+  std::vector<std::string> within;  ///< --within M,DEG
+  std::vector<PoseTolerance> tolerances;
+  std::optional<std::int64_t> queries;
   std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
   std::vector<double> rpe_deltas = {1};  ///< in rpe_unit
   bool rpe_all_pairs = false;
@@ -39,6 +44,24 @@ void print_evaluations_json(const Evaluations& evaluations);
 void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated);
 /// The picture of --plot, an SVG file, of those that could be evaluated.
 [[nodiscard]] std::string draw_evaluations(const Evaluations& evaluations);
+
+/// The percentiles that are told of errors.
+inline constexpr double kPercents[] = {50, 90, 95, 99};
+
+/// How many poses are within a tolerance.
+struct WithinCount {
+  PoseTolerance tolerance;
+  std::size_t count = 0;
+};
+/// One for each of --within.
+[[nodiscard]] std::vector<WithinCount> count_within_each(const EvaluateArguments& arguments,
+                                                         const TrajectoryEvaluation& result);
+/// Percentiles of the errors of each estimate, and how many poses are within the tolerances: of what share.
+void print_shares(const Evaluations& evaluations);
+
+/// Rows of one table: the first column to the left, the others to the right.
+using Row = std::vector<std::string>;
+void print_table(const std::vector<Row>& rows);
 
 /// "1 frame", "10 m", "0.5 s".
 [[nodiscard]] std::string name_of(const RpeOptions& options);
