@@ -74,7 +74,7 @@ void read_truth(const fs::path& path, Sequence& sequence) {
   if (!fs::exists(path) || !has_frame_numbers(path)) return;
   Trajectory truth = read_tum_trajectory(path);
   for (StampedPose& pose : truth)
-    pose.stamp_ns = stamp_of_number(pose.stamp_ns / 1'000'000'000, sequence.calibration.rate_hz);
+    pose.stamp_ns = stamp_of_number(pose.stamp_ns / 1'000'000'000, sequence.calibration.stamp_rate_hz());
   sequence.truth = std::move(truth);
 }
 
@@ -86,6 +86,7 @@ bool is_numbered(const fs::path& folder, const SequenceOptions& options) {
 
 void list_numbered(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
   sequence.format = "numbered";
+  sequence.has_times = sequence.calibration.rate_hz.has_value();
   const FolderPair names = folders(folder, options).value();
   const auto color = numbered_files(resolve(folder, names.color), options.rgb_extension);
   const auto depth = numbered_files(resolve(folder, names.depth), options.depth_extension);
@@ -93,7 +94,7 @@ void list_numbered(const fs::path& folder, const SequenceOptions& options, Seque
     const auto partner = depth.find(number);
     if (partner == depth.end()) continue;
     sequence.frames.push_back(
-        {stamp_of_number(number, sequence.calibration.rate_hz), number, path, partner->second, {}});
+        {stamp_of_number(number, sequence.calibration.stamp_rate_hz()), number, path, partner->second, {}});
   }
   sequence.report.color_images = static_cast<std::int64_t>(color.size());
   sequence.report.depth_images = static_cast<std::int64_t>(depth.size());
