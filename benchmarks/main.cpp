@@ -8,6 +8,7 @@
 #include "features.h"
 #include "geometry.h"
 #include "landmarks.h"
+#include "localization.h"
 
 int main(int argc, char** argv) {
   try {
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
     cairn::bench::add_geometry(comparisons);
     cairn::bench::add_bundle(comparisons);
     cairn::bench::add_landmarks(comparisons);
+    cairn::bench::add_map_queries(comparisons);
+    cairn::bench::add_evaluation(comparisons);
     return cairn::bench::run(comparisons, argc, argv) == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "cairn_bench: {}\n", error.what());

@@ -8,6 +8,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "camera_argument.h"
 #include "commands.h"
 #include "compared_trajectories.h"
 #include "evaluate_output.h"
@@ -39,6 +40,17 @@ void declare_trajectories(CLI::App& app, EvaluateArguments& arguments) {
   });
 }
 
+void declare_within(CLI::App& app, EvaluateArguments& arguments) {
+  app.add_option("--within", arguments.within,
+                 "how many poses are off by at most so many metres and degrees; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("M,DEG");
+  app.add_option("--queries", arguments.queries,
+                 "images that were to be localised: --within is given as a share of them, too")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
+      ->type_name("N");
+}
+
 void declare_rpe(CLI::App& app, EvaluateArguments& arguments) {
   app.add_option("--rpe-delta", arguments.rpe_deltas,
                  "lengths of the RPE's intervals in --rpe-unit; in the other units they stay at 1")
@@ -66,6 +78,7 @@ void declare(CLI::App& app, EvaluateArguments& arguments) {
       ->capture_default_str();
   add_stamp_offset(app, "--offset", "EST", arguments.offset);
   declare_rpe(app, arguments);
+  declare_within(app, arguments);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
       ->type_name("FILE|NAME");
@@ -76,6 +89,7 @@ void declare(CLI::App& app, EvaluateArguments& arguments) {
   app.footer(
       "Examples: cairn evaluate run/ recording/ --plot trajectory.svg\n"
       "          cairn evaluate run1/ run2/ other.txt recording/     a row for each\n"
+      "          cairn evaluate found/ recording/ --align none --within 0.05,5 --queries 200\n"
       "ATE and RPE are those of evo and the TUM tools, drift is KITTI's. The ATE is given by se3 and sim3, "
       "all else\n"
       "by --align. Exit code 1: nothing to compare for an EST.");
@@ -92,7 +106,15 @@ std::vector<RpeOptions> rpe_options(const EvaluateArguments& arguments) {
   return options;
 }
 
+PoseTolerance parse_tolerance(const std::string& text) {
+  const auto numbers = parse_number_list(text, 2, "--within", "metres and degrees");
+  if (numbers[0] > 0 && numbers[1] > 0) return {numbers[0], numbers[1]};
+  throw InputError({"--within", 0, "metres and degrees above 0", fmt::format("'{}'", text),
+                    "For example --within 0.05,5."});
+}
+
 void check(EvaluateArguments& arguments) {
+  for (const std::string& text : arguments.within) arguments.tolerances.push_back(parse_tolerance(text));
   for (const double delta : arguments.rpe_deltas) {
     if (arguments.rpe_unit != "frames" || (delta >= 1 && delta == std::floor(delta))) continue;
     throw InputError({"--rpe-delta", 0, "a whole number of frames", fmt::format("{}", delta),
@@ -111,12 +133,21 @@ void leave_out_times(EvaluateArguments& arguments) {
                     "Choose another unit, or give one of the trajectories with time stamps."});
 }
 
+void check_queries(const EvaluateArguments& arguments, const Evaluated& evaluated) {
+  const std::int64_t poses = std::ssize(evaluated.estimate);
+  if (!arguments.queries || *arguments.queries >= poses) return;
+  throw InputError({"--queries", 0, fmt::format("at least {}, the poses of {}", poses, evaluated.path),
+                    fmt::format("{}", *arguments.queries),
+                    "Give the number of images that were looked for."});
+}
+
 Evaluations evaluate(const EvaluateArguments& arguments, const ComparedTrajectories& compared) {
   Evaluations evaluations{arguments, compared.reference, {}};
   for (std::size_t i = 0; i < compared.estimates.size(); ++i)
     evaluations.estimates.push_back({arguments.estimates[i], compared.estimates[i], {}});
   for (auto& [path, estimate, result] : evaluations.estimates)
     result = evaluate_trajectory(estimate, compared.reference, arguments.options);
+  for (const Evaluated& evaluated : evaluations.estimates) check_queries(arguments, evaluated);
   return evaluations;
 }
 

@@ -77,6 +77,35 @@ Json drift_json(const std::optional<Drift>& drift) {
   return json;
 }
 
+Json percentiles_json(const PoseErrors& errors) {
+  Json json = Json::array();
+  for (const double percent : kPercents)
+    json.push_back({{"percent", percent},
+                    {"m", percentile_of(errors.translation_m, percent)},
+                    {"deg", percentile_of(errors.rotation_deg, percent)}});
+  return json;
+}
+
+Json within_json(const EvaluateArguments& arguments, const Trajectory& reference,
+                 const Evaluated& evaluated) {
+  Json json = Json::array();
+  for (const auto& [tolerance, count] : count_within_each(arguments, evaluated.result)) {
+    const auto share = [count = count](std::size_t whole) {
+      return static_cast<double>(count) / static_cast<double>(whole);
+    };
+    json.push_back(
+        {{"position_m", tolerance.translation_m},
+         {"rotation_deg", tolerance.rotation_deg},
+         {"count", count},
+         {"share_of_pairs", share(evaluated.result.pairs.size())},
+         {"share_of_estimate", share(evaluated.estimate.size())},
+         {"share_of_reference", share(reference.size())},
+         {"share_of_queries",
+          arguments.queries ? Json(share(static_cast<std::size_t>(*arguments.queries))) : Json()}});
+  }
+  return json;
+}
+
 /// The RPE of --rpe-delta and --rpe-unit, the first where there are several.
 void add_chosen_rpe(const EvaluateArguments& arguments, const TrajectoryEvaluation& result, Json& json) {
   const auto chosen = std::find_if(result.relative.begin(), result.relative.end(), [&](const auto& relative) {
@@ -108,6 +137,9 @@ Json evaluated_json(const EvaluateArguments& arguments, const Trajectory& refere
   add_similarity(result.absolute.reference_from_estimate, json);
   add_statistics("ate_", "m", result.absolute.ate_m, json);
   add_statistics("ate_", "deg", result.absolute.ate_deg, json);
+  json["ate_percentiles"] = percentiles_json(result.errors);
+  json["queries"] = arguments.queries ? Json(*arguments.queries) : Json();
+  json["within"] = within_json(arguments, reference, evaluated);
   add_chosen_rpe(arguments, result, json);
   json["se3"] = absolute_json(result.se3);
   json["sim3"] = absolute_json(result.sim3);

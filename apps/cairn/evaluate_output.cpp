@@ -85,20 +85,6 @@ void print_one(const Evaluations& evaluations) {
 
 // ---- several estimates: a row each ----
 
-using Row = std::vector<std::string>;
-
-/// The first column to the left, the others to the right.
-void print_table(const std::vector<Row>& rows) {
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
-  for (const auto& row : rows) {
-    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
-    for (std::size_t k = 1; k < row.size(); ++k) line += fmt::format("  {:>{}}", row[k], widths[k]);
-    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
-  }
-}
-
 std::string rmse(const std::optional<ErrorStatistics>& errors, const ShownUnit& unit) {
   return errors ? fmt::format("{:.3f}", unit.factor * errors->rmse) : "-";
 }
@@ -165,6 +151,17 @@ std::string describe_pairing(const EvaluateArguments& arguments) {
                              : "by their order, as no file has time stamps";
 }
 
+void print_table(const std::vector<Row>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  for (const auto& row : rows) {
+    std::string line = fmt::format("{:<{}}", row[0], widths[0]);
+    for (std::size_t k = 1; k < row.size(); ++k) line += fmt::format("  {:>{}}", row[k], widths[k]);
+    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+  }
+}
+
 ShownUnit unit_for(double largest_error_m) {
   constexpr double kFarM = 10;
   return largest_error_m < kFarM ? ShownUnit{"cm", 100} : ShownUnit{"m", 1};
@@ -205,6 +202,7 @@ void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated) {
 
 void print_evaluations(const Evaluations& evaluations) {
   evaluations.estimates.size() == 1 ? print_one(evaluations) : print_several(evaluations);
+  print_shares(evaluations);
 }
 
 }  // namespace cairn::app

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@ namespace cairn::app {
 struct EvaluateArguments {
   CommonOptions common;
   std::vector<std::string> estimates;
+  std::vector<std::string> within;  ///< --within M,DEG
+  std::vector<PoseTolerance> tolerances;
+  std::optional<std::int64_t> queries;
   std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
   StampOffset offset;                    ///< added to the estimates' stamps
   bool has_times = true;                 ///< false: poses pair by position or number, no file says a time
@@ -45,6 +50,24 @@ void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated);
 
 /// By what poses pair: "stamps within 0.02 s", or their position where no file says a time.
 [[nodiscard]] std::string describe_pairing(const EvaluateArguments& arguments);
+
+/// The percentiles that are told of errors.
+inline constexpr double kPercents[] = {50, 90, 95, 99};
+
+/// How many poses are within a tolerance.
+struct WithinCount {
+  PoseTolerance tolerance;
+  std::size_t count = 0;
+};
+/// One for each of --within.
+[[nodiscard]] std::vector<WithinCount> count_within_each(const EvaluateArguments& arguments,
+                                                         const TrajectoryEvaluation& result);
+/// Percentiles of the errors of each estimate, and how many poses are within the tolerances: of what share.
+void print_shares(const Evaluations& evaluations);
+
+/// Rows of one table: the first column to the left, the others to the right.
+using Row = std::vector<std::string>;
+void print_table(const std::vector<Row>& rows);
 
 /// "1 frame", "10 m", "0.5 s".
 [[nodiscard]] std::string name_of(const RpeOptions& options);

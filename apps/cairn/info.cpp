@@ -76,8 +76,9 @@ void print_depth(const DepthCalibration& depth) {
 void print_text(const Sequence& sequence) {
   fmt::print("sequence     {}\n", sequence.folder.string());
   fmt::print("format       {}\n", sequence.format);
-  fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second\n", sequence.frames.size(),
-             duration_s(sequence), rate_hz(sequence));
+  fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second{}\n", sequence.frames.size(),
+             duration_s(sequence), rate_hz(sequence),
+             sequence.has_times ? "" : ": assumed, as nothing states times or rate_hz");
   print_association(sequence.report);
   fmt::print("camera       {}\n", describe(sequence.calibration.camera));
   fmt::print("             from {}\n", sequence.calibration_source);
@@ -124,6 +125,7 @@ void print_json(const Sequence& sequence) {
   json["frames"] = sequence.frames.size();
   json["duration_s"] = duration_s(sequence);
   json["rate_hz"] = rate_hz(sequence);
+  json["has_times"] = sequence.has_times;
   json["color_images"] = sequence.report.color_images;
   json["depth_images"] = sequence.report.depth_images;
   json["right_images"] = sequence.report.right_images;

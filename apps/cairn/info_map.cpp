@@ -69,6 +69,9 @@ void print_indicators(const MapFigures& figures) {
     for (const double value : statistics_of(values)) fmt::print("{:>10.4g}", value);
     fmt::print("\n");
   }
+  fmt::print(
+      "std_x, std_y, std_z and largest_std know the noise of observations and the stated errors of poses;\n"
+      "errors that landmarks have in common, as of poses that are off, are not in them\n");
   if (figures.without_covariance > 0)
     fmt::print("no covariance: {} landmarks, of which no standard deviation is counted\n",
                figures.without_covariance);

@@ -37,11 +37,12 @@ void declare(CLI::App& app, LocalizeArguments& arguments) {
       ->required();
   app.add_option("--prior", arguments.prior.path,
                  "where the images are thought to be: a trajectory in the map's world, or 'last': where the "
-                 "image before was found")
+                 "image before was found, of a sequence with times")
       ->type_name("FILE|last");
   add_pose_time_options(app, arguments.prior);
   app.add_flag("--mono", arguments.mono, "without depth and right images");
-  app.add_flag("--any-camera", arguments.any_camera, "the images need not be of the map's camera");
+  app.add_flag("--any-camera", arguments.any_camera,
+               "not needed: the calibration says which camera the images are of");
   app.add_flag("--draw", arguments.draw, "a picture for each image in RUN/pictures");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
@@ -69,11 +70,11 @@ LocalizeParameters gather_parameters(const LocalizeArguments& arguments, const M
 /// Finds the images of a sequence one after the other, and keeps what was found.
 class LocalizeRun {
  public:
-  LocalizeRun(const Localizer& localizer, const Frontend& frontend, const TrustOptions& trust,
+  LocalizeRun(const Localizer& localizer, const Frontend& frontend, std::optional<MotionCheck> motion,
               std::vector<std::optional<WorldFromCamera>> priors, bool follow)
       : localizer_(localizer),
         frontend_(frontend),
-        motion_(trust),
+        motion_(std::move(motion)),
         priors_(std::move(priors)),
         follow_(follow) {}
 
@@ -98,7 +99,7 @@ class LocalizeRun {
       return false;
     }
     if (follow_) localize(last_, item);
-    motion_.check(item.arrival.observed.stamp_ns, item.image.found);
+    if (motion_) motion_->check(item.arrival.observed.stamp_ns, item.image.found);
     if (item.image.found.verdict == Verdict::good) last_ = item.image.found.camera_from_world.inverse();
     item.image.position = static_cast<std::int64_t>(index);
     item.image.stamp_ns = item.arrival.observed.stamp_ns;
@@ -120,7 +121,7 @@ class LocalizeRun {
 
   const Localizer& localizer_;
   const Frontend& frontend_;
-  MotionCheck motion_;
+  std::optional<MotionCheck> motion_;                   // none where nothing is known about time
   std::vector<std::optional<WorldFromCamera>> priors_;  // none, or one for each image
   bool follow_;                                         // the last pose is the prior of the next image
   std::optional<WorldFromCamera> last_;
@@ -143,6 +144,21 @@ std::vector<std::optional<WorldFromCamera>> read_priors(const LocalizeArguments&
                                                         const Sequence& sequence) {
   if (arguments.prior.path.empty() || arguments.prior.path == kFollow) return {};
   return read_reported_poses(sequence, arguments.prior);
+}
+
+/// Nothing for images whose times are not known: separate photos may be anywhere.
+std::optional<MotionCheck> motion_check(const Sequence& sequence, const TrustOptions& trust) {
+  return sequence.has_times ? std::optional(MotionCheck(trust)) : std::nullopt;
+}
+
+/// Whether the pose of an image is the prior of the next one: only if they are of one camera on its way.
+bool follows(const LocalizeArguments& arguments, const Sequence& sequence, Progress& progress) {
+  const bool is_asked = arguments.prior.path == kFollow;
+  if (!is_asked || sequence.has_times) return is_asked;
+  progress.warn(
+      "--prior last is ignored: these images have no times, so each is looked for in the whole map.\n"
+      "  If they are a video, state its rate_hz in camera.yaml in their folder.");
+  return false;
 }
 
 /// All images, as long as no one asks to stop.
@@ -168,35 +184,37 @@ int run_localize(int argc, char** argv) {
   if (const auto code = parse(app, argc, argv)) return *code;
 
   Stopwatch watch;
-  LocalizeSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}};
+  LocalizeSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}, {}, {}};
   const MapView map(arguments.map);
   summary.open_seconds = watch.seconds();
   const LocalizeParameters parameters = gather_parameters(arguments, map.info());
   const Sequence sequence =
       open_query(arguments.sequence.folder, parameters.sequence, map.info(), arguments.mono);
   const QueryCamera camera = query_camera(sequence, map.info());
-  if (!arguments.any_camera) require_same_camera(map.info(), camera, sequence.calibration_source);
   OutputFolder folder(arguments.output, "run");
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);
   Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
 
   const Frontend frontend(sequence,
-                          observer_options_for(map.info(), parameters.features, parameters.contrast));
+                          observer_options_for(map.info(), parameters.features, parameters.contrast),
+                          camera_for_queries(map.info(), sequence.calibration.camera));
   const Localizer localizer(map, camera, parameters.localize);
-  LocalizeRun run(localizer, frontend, parameters.localize.trust, read_priors(arguments, sequence),
-                  arguments.prior.path == kFollow);
+  LocalizeRun run(localizer, frontend, motion_check(sequence, parameters.localize.trust),
+                  read_priors(arguments, sequence), follows(arguments, sequence, *progress));
   run_all(run, sequence, executor, *progress);
   check.wait();
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 
   summary.images = sequence.frames.size();
+  summary.stamps = describe_stamps(sequence);
+  summary.camera = describe_camera(sequence.calibration.camera, camera);
   summary.unreadable = run.unreadable();
   summary.stopped = run.images().size() + run.unreadable().size() < sequence.frames.size();
   summary.threads = executor.threads();
   summary.total_seconds = watch.seconds();
-  write_file(folder.work() / "trajectory.txt", format_tum_trajectory(trajectory_of(run.images())));
-  write_file(folder.work() / "localization.csv", format_localization_csv(run.images()));
+  write_file(folder.work() / "trajectory.txt", format_trajectory(run.images(), summary));
+  write_file(folder.work() / "localization.csv", format_localization_csv(run.images(), summary));
   const std::string json = format_localize_json(run.images(), summary);
   write_file(folder.work() / "run.json", json);
   folder.commit();

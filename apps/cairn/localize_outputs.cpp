@@ -17,6 +17,7 @@ namespace cairn::app {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr const char* kTimes = "times";
 constexpr std::array<const char*, 6> kAxes{"rx", "ry", "rz", "x", "y", "z"};
 
 double peak_memory_mb() {
@@ -97,34 +98,59 @@ Counts count(const std::vector<LocalizedImage>& images) {
   return counts;
 }
 
+/// Nothing if no image has the value.
 template <class ValueOf>
-double median(const std::vector<LocalizedImage>& images, const ValueOf& value_of) {
+std::optional<double> median(const std::vector<LocalizedImage>& images, const ValueOf& value_of) {
   std::vector<double> values;
   for (const LocalizedImage& image : images)
     if (const std::optional<double> value = value_of(image)) values.push_back(*value);
-  if (values.empty()) return 0;
+  if (values.empty()) return std::nullopt;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
 double median_ms(const std::vector<LocalizedImage>& images, double LocalizedImage::*seconds) {
-  return 1e3 * median(images, [&](const LocalizedImage& image) { return std::optional(image.*seconds); });
+  const auto value = [&](const LocalizedImage& image) { return std::optional(image.*seconds); };
+  return 1e3 * median(images, value).value_or(0);
 }
 
-double median_inliers(const std::vector<LocalizedImage>& images) {
+std::optional<double> median_inliers(const std::vector<LocalizedImage>& images) {
   return median(images, [](const LocalizedImage& image) {
     return image.found.found() ? std::optional(static_cast<double>(image.found.inliers.size()))
                                : std::nullopt;
   });
 }
 
-/// The largest standard deviation of the position along an axis, of the images with a pose.
-double median_std(const std::vector<LocalizedImage>& images) {
+/// The largest standard deviation of the position along an axis by noise alone, of the images with a pose.
+std::optional<double> median_std(const std::vector<LocalizedImage>& images) {
   return median(images, [](const LocalizedImage& image) -> std::optional<double> {
     if (!image.found.found()) return std::nullopt;
     return std::sqrt(image.found.precision.covariance.diagonal().tail<3>().maxCoeff());
   });
+}
+
+/// The largest protection level of the position along an axis, of the images with a pose.
+std::optional<double> median_protection(const std::vector<LocalizedImage>& images) {
+  return median(images, [](const LocalizedImage& image) -> std::optional<double> {
+    if (!image.found.found()) return std::nullopt;
+    return image.found.precision.protection.tail<3>().maxCoeff();
+  });
+}
+
+nlohmann::ordered_json json_of(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nullptr;
+}
+
+/// What is said of poses, if there are any. The covariance knows noise alone, so that is what is said of it.
+void print_precision(const std::vector<LocalizedImage>& images) {
+  const auto inliers = median_inliers(images), std_m = median_std(images);
+  if (!inliers || !std_m) return;
+  fmt::print("inliers      {:.0f} in the median\n", *inliers);
+  fmt::print(
+      "position     {:.2g} cm by noise alone (standard deviation), protection level {:.2g} cm (medians);\n",
+      100 * *std_m, 100 * median_protection(images).value_or(0));
+  fmt::print("             errors that the whole map has in common are in neither\n");
 }
 
 nlohmann::ordered_json to_json(const LocalizedImage& image) {
@@ -149,24 +175,39 @@ nlohmann::ordered_json to_json(const LocalizedImage& image) {
 
 }  // namespace
 
-std::string format_localization_csv(const std::vector<LocalizedImage>& images) {
+std::string describe_stamps(const Sequence& sequence) {
+  if (sequence.has_times) return kTimes;
+  if (sequence.format == "images")
+    return "positions of the images in their folder, from 0: they have no times";
+  return fmt::format("file numbers / {:g}: the images have no times", sequence.calibration.stamp_rate_hz());
+}
+
+std::string describe_camera(const Camera& camera, const QueryCamera& observed) {
+  const std::string size = fmt::format("{}x{} pixels", camera.width, camera.height);
+  if (camera.width == observed.width && camera.height == observed.height) return size;
+  return fmt::format("{}, scaled to {}x{}: to the map's pixels per radian", size, observed.width,
+                     observed.height);
+}
+
+std::string format_localization_csv(const std::vector<LocalizedImage>& images,
+                                    const LocalizeSummary& summary) {
   std::string text =
       "# Poses are world_from_camera. Axes of dop, std, protection (exceeded with probability 1e-3) and cov "
-      "are the "
-      "camera's: x right, y down, z forward; rx ry rz are rotations about them. cov in radians and metres: "
-      "of "
-      "the left "
-      "perturbation (rx ry rz x y z) of camera_from_world.\n" +
-      format_header();
+      "are the camera's: x right, y down, z forward; rx ry rz are rotations about them. cov in radians and "
+      "metres: of the left perturbation (rx ry rz x y z) of camera_from_world. std, protection and cov know "
+      "noise alone, not the errors that the whole map has in common. Pixels are those of images of " +
+      summary.camera + ". stamp_s: " + summary.stamps + ".\n" + format_header();
   for (const LocalizedImage& image : images) text += format_row(image);
   return text;
 }
 
-Trajectory trajectory_of(const std::vector<LocalizedImage>& images) {
+std::string format_trajectory(const std::vector<LocalizedImage>& images, const LocalizeSummary& summary) {
   Trajectory trajectory;
   for (const LocalizedImage& image : images)
     if (image.found.found()) trajectory.push_back({image.stamp_ns, image.found.camera_from_world.inverse()});
-  return trajectory;
+  const std::string text = format_tum_trajectory(trajectory);
+  if (summary.stamps == kTimes) return text;
+  return fmt::format("# t: {}; localization.csv has the names of the files\n{}", summary.stamps, text);
 }
 
 std::string format_localize_json(const std::vector<LocalizedImage>& images, const LocalizeSummary& summary) {
@@ -175,6 +216,8 @@ std::string format_localize_json(const std::vector<LocalizedImage>& images, cons
   json["cairn"] = CAIRN_VERSION;
   json["map"] = summary.map;
   json["sequence"] = summary.sequence;
+  json["stamps"] = summary.stamps;
+  json["camera"] = summary.camera;
   json["images"] = {{"total", summary.images},
                     {"good", counts.good},
                     {"weak", counts.weak},
@@ -183,8 +226,9 @@ std::string format_localize_json(const std::vector<LocalizedImage>& images, cons
   json["weak_because"] = nlohmann::ordered_json::object();
   for (const auto& [reason, number] : counts.reasons) json["weak_because"][std::string(reason)] = number;
   json["stopped"] = summary.stopped;
-  json["median_inliers"] = median_inliers(images);
-  json["median_std_m"] = median_std(images);
+  json["median_inliers"] = json_of(median_inliers(images));
+  json["median_std_m"] = json_of(median_std(images));
+  json["median_protection_m"] = json_of(median_protection(images));
   json["threads"] = summary.threads;
   json["seconds"] = {{"open", summary.open_seconds}, {"total", summary.total_seconds}};
   json["median_ms"] = {{"features", median_ms(images, &LocalizedImage::feature_seconds)},
@@ -199,11 +243,12 @@ void print_localize_summary(const std::vector<LocalizedImage>& images, const Loc
   const Counts counts = count(images);
   fmt::print("images       {}: {} good, {} weak, {} not found\n", images.size(), counts.good, counts.weak,
              counts.none);
+  fmt::print("camera       {}\n", summary.camera);
+  if (summary.stamps != kTimes) fmt::print("stamps       {}\n", summary.stamps);
   for (const auto& [reason, number] : counts.reasons) fmt::print("  weak       {}: {}\n", reason, number);
   if (!summary.unreadable.empty()) fmt::print("unreadable   {} images, skipped\n", summary.unreadable.size());
   if (summary.stopped) fmt::print("stopped      after {} of {} images\n", images.size(), summary.images);
-  fmt::print("inliers      {:.0f} in the median, position to {:.2g} cm (standard deviation)\n",
-             median_inliers(images), 100 * median_std(images));
+  print_precision(images);
   fmt::print("time         map opened in {:.3f} s; {:.1f} ms features and {:.1f} ms localisation an image\n",
              summary.open_seconds, median_ms(images, &LocalizedImage::feature_seconds),
              median_ms(images, &LocalizedImage::localize_seconds));

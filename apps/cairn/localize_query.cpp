@@ -4,14 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cairn/core/error.h"
+#include "cairn/image/codec.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kFromMap = "the map";
 
 Calibration camera_of(const MapInfo& map) {
   Calibration calibration;
@@ -24,10 +28,45 @@ Calibration camera_of(const MapInfo& map) {
   return calibration;
 }
 
-Calibration chosen_calibration(const std::string& camera, const MapInfo& map) {
-  if (camera.empty()) return camera_of(map);
-  if (const auto known = known_calibration(camera)) return *known;
-  return read_calibration(camera);
+/// The calibration in the order of who may say: --camera, camera.yaml beside the images, the map.
+void choose_calibration(const fs::path& folder, const SequenceOptions& options, const MapInfo& map,
+                        Sequence& sequence) {
+  const fs::path own = folder / "camera.yaml";
+  sequence.calibration_source = kFromMap;
+  if (!options.camera.empty()) {
+    sequence.calibration_source = options.camera;
+  } else if (std::error_code error; fs::is_regular_file(own, error)) {
+    sequence.calibration_source = own.string();
+  } else {
+    sequence.calibration = camera_of(map);
+    if (map.width > 0 && map.height > 0) return;
+    throw InputError({"--camera", 0,
+                      "the calibration of the images, as the map does not say the size of its own", "none",
+                      "Give --camera FILE."});
+  }
+  const auto known = known_calibration(sequence.calibration_source);
+  sequence.calibration = known ? *known : read_calibration(sequence.calibration_source);
+}
+
+std::optional<GrayImage> read_if_possible(const fs::path& path) {
+  try {
+    return read_gray(path);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+/// Images without a calibration need the map's size. One that cannot be read is left to whoever reads it
+/// next.
+void expect_map_size(const fs::path& path, const MapInfo& map) {
+  const std::optional<GrayImage> image = read_if_possible(path);
+  if (!image || (image->width() == map.width && image->height() == map.height)) return;
+  throw InputError(
+      {path.string(), 0,
+       fmt::format("an image of {}x{} pixels, as the map's camera has, or a calibration", map.width,
+                   map.height),
+       fmt::format("{}x{} and no calibration", image->width(), image->height()),
+       "Give the calibration of the camera of these images by --camera FILE; they are scaled to the map's."});
 }
 
 /// Images that lie side by side in a folder which is no sequence.
@@ -38,29 +77,47 @@ std::vector<fs::path> images_in(const fs::path& folder) {
   return images;
 }
 
-Sequence sequence_of(const std::vector<fs::path>& images, const fs::path& folder,
-                     const SequenceOptions& options, const MapInfo& map) {
-  Sequence sequence;
-  sequence.folder = folder;
-  sequence.format = "images";
-  sequence.calibration = chosen_calibration(options.camera, map);
-  sequence.calibration_source = options.camera.empty() ? "the map" : options.camera;
+/// Images have times only if camera.yaml beside them states a rate, as a video's does; a rate that comes with
+/// --camera is the camera's. The stamps of others are their positions in the folder as whole seconds.
+void list_images(const std::vector<fs::path>& images, const SequenceOptions& options, bool is_video,
+                 Sequence& sequence) {
+  sequence.has_times = is_video;
+  const double rate_hz = is_video ? sequence.calibration.stamp_rate_hz() : 1;
   const auto count = static_cast<std::int64_t>(images.size());
   for (std::int64_t i = 0; i < count; ++i) {
     if (options.frames && !contains(*options.frames, i, count)) continue;
     if (options.without && contains(*options.without, i, count)) continue;
     sequence.frames.push_back(
-        {stamp_of_number(i, sequence.calibration.rate_hz), i, images[static_cast<std::size_t>(i)], {}, {}});
+        {stamp_of_number(i, rate_hz), i, images[static_cast<std::size_t>(i)], {}, {}, i});
   }
+  sequence.listed = count;
   if (sequence.frames.empty())
-    throw InputError({folder.string(), 0, "at least one image", fmt::format("0 of {} after selection", count),
-                      "Widen --frames or --without."});
+    throw InputError({sequence.folder.string(), 0, "at least one image",
+                      fmt::format("0 of {} after selection", count), "Widen --frames or --without."});
+}
+
+Sequence sequence_of(const std::vector<fs::path>& images, const fs::path& folder,
+                     const SequenceOptions& options, const MapInfo& map) {
+  Sequence sequence;
+  sequence.folder = folder;
+  sequence.format = "images";
+  choose_calibration(folder, options, map, sequence);
+  list_images(images, options, options.camera.empty() && sequence.calibration.rate_hz, sequence);
+  if (sequence.calibration_source == kFromMap) expect_map_size(sequence.frames.front().color, map);
   return sequence;
 }
 
+/// Frames of 7-Scenes that were picked without their depth images are images like others.
+bool has_depth_images(const fs::path& folder) {
+  const std::vector<fs::path> files = files_in(folder);
+  return std::any_of(files.begin(), files.end(), [](const fs::path& file) {
+    return file.filename().string().find(".depth.") != std::string::npos;
+  });
+}
+
 bool is_sequence(const fs::path& folder, const SequenceOptions& options) {
-  return is_tum(folder) || is_seven_scenes(folder) || is_kitti(folder) || is_euroc(folder) ||
-         is_numbered(folder, options);
+  return is_tum(folder) || (is_seven_scenes(folder) && has_depth_images(folder)) || is_kitti(folder) ||
+         is_euroc(folder) || is_numbered(folder, options);
 }
 
 }  // namespace
@@ -82,8 +139,9 @@ Sequence open_query(const std::string& path, const SequenceOptions& options, con
 QueryCamera query_camera(const Sequence& sequence, const MapInfo& map) {
   DepthNoise noise;
   noise.baseline = map.rig.baseline;
-  const Camera& camera = sequence.calibration.camera;
-  return {rig_of(sequence.calibration, noise), camera.width, camera.height};
+  Calibration calibration = sequence.calibration;
+  calibration.camera = camera_for_queries(map, calibration.camera);
+  return {rig_of(calibration, noise), calibration.camera.width, calibration.camera.height};
 }
 
 }  // namespace cairn::app

@@ -202,9 +202,10 @@ void print_pose(const PnpArguments& arguments, const PoseFit& fit) {
   if (fit.status != PoseFitStatus::ok) return;
   const Vector6d deviation = fit.covariance.diagonal().cwiseSqrt();
   constexpr double kDegrees = 180.0 / std::numbers::pi;
-  fmt::print("std rotation  {:.3g} {:.3g} {:.3g} deg\n", kDegrees * deviation[0], kDegrees * deviation[1],
-             kDegrees * deviation[2]);
-  fmt::print("std move      {:.3g} {:.3g} {:.3g} m\n", deviation[3], deviation[4], deviation[5]);
+  fmt::print("std rotation  {:.3g} {:.3g} {:.3g} deg, by the noise of pixels alone\n",
+             kDegrees * deviation[0], kDegrees * deviation[1], kDegrees * deviation[2]);
+  fmt::print("std move      {:.3g} {:.3g} {:.3g} m, likewise: the points count as exact\n", deviation[3],
+             deviation[4], deviation[5]);
   fmt::print("variance      {:.4g} times what sigma {} px says; multiply the stds by its root\n",
              fit.variance_factor, arguments.sigma_px);
 }

@@ -30,7 +30,7 @@ def frame_file(number, size=32):
                                     for i in range(2)))
 
 
-def map_files(size=32, descriptor="ORB"):
+def map_files(size=32, descriptor="ORB", width=64, height=48):
     """By name: two keyframes of two parts that see one landmark."""
     frames = [frame_file(number, size) for number in range(2)]
     points = sealed(b"CAIRNPNT" + struct.pack("<IIQIIQ12d", 3, 1, 2, 0, 2, 0, *[0.5] * 3, *[0.0] * 9))
@@ -41,7 +41,7 @@ def map_files(size=32, descriptor="ORB"):
     table = (UVLIST_HEADER + "0 0.5 0.5 0.5 2 0 0 0 0.25" + 4 * " 1.5 1 2 0.5" + "\n").encode()
     info = {"format": "cairn keyframe map", "version": 3, "frame": "camera of the first keyframe",
             "rig": {"fx": 50.0, "fy": 50.0, "cx": 31.5, "cy": 23.5, "baseline": 0.1},
-            "image": {"width": 64, "height": 48}, "descriptor": {"name": descriptor, "norm": "hamming", "bytes": 32}, "settings": "",
+            "image": {"width": width, "height": height}, "descriptor": {"name": descriptor, "norm": "hamming", "bytes": 32}, "settings": "",
             "counts": {"keyframes": 2, "features": 4, "landmarks": 1, "sightings": 2},
             "keyframes": [{"file": f"frames/{number:06}.{descriptor.lower()}", "frame": 5 * number, "stamp_ns": 10**9 * (number + 1),
                            "part": number, "crc32": checksum(frame)} for number, frame in enumerate(frames)],

@@ -143,7 +143,8 @@ class Small(program.Quality):
         self.cairn("simulate", "room", "-o", "long", "--frames-count", "200", "--scale", "0.5", "--quiet")
         process = subprocess.Popen([sys.argv[1], "slam", "long", "-o", "run", "--threads", "1", "--json"], cwd=self.folder,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.0)
+        while process.poll() is None and program.processor_seconds(process.pid) < 1.0:
+            time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=program.TIME_LIMIT_S)
         self.assertEqual(process.returncode, 0, errors)
@@ -154,6 +155,25 @@ class Small(program.Quality):
         self.assertEqual(len(written) - 1, frames["tracked"])
         for name in ("cloud.ply", "octree.ot", "graph_after.g2o", "map/map.json"):
             self.assertTrue((self.folder / "run" / name).is_file(), name)
+
+
+class Photos(program.Quality):
+    """Images of a room by cameras of other resolutions than the map's, which their calibrations say."""
+
+    def test_are_found_at_other_resolutions(self):
+        self.cairn("simulate", "room", "-o", "room", "--frames-count", "20", "--scale", "0.5", "--quiet")
+        self.cairn("map", "room", "--poses", "room/groundtruth.txt", "-o", "map", "--quiet")
+        for scale, size in (("1.25", "800x600 pixels, scaled to 320x240"), ("0.3", "192x144 pixels, scaled to 320x240")):
+            self.cairn("simulate", "room", "-o", "other", "--frames-count", "20", "--scale", scale, "--quiet")
+            for options in ((), ("--mono",)):
+                run = self.figures("localize", "map", "other", *options, "--frames", "1::4", "-o", "found")
+                self.assertIn(size, run["camera"])
+                self.assertEqual(run["images"]["good"], 5, f"{scale} {options}")
+                errors = self.figures("evaluate", "found", "other", "--align", "none")
+                self.assertLessEqual(errors["ate_max_m"], 0.02)
+                self.assertLessEqual(errors["ate_max_deg"], 0.5)
+            run = self.figures("localize", "map", "other/rgb", "--camera", "other/camera.yaml", "--frames", "1::4", "-o", "found", "--draw")
+            self.assertEqual((run["images"]["good"], run["stamps"][:9]), (5, "positions"))
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "cairn/core/error.h"
+
 namespace cairn {
 
 std::optional<ErrorStatistics> summarize_errors(std::span<const double> errors) {
@@ -26,6 +28,16 @@ std::optional<ErrorStatistics> summarize_errors(std::span<const double> errors) 
   result.rmse = std::sqrt(squares / count);
   result.std = std::sqrt(deviations / count);
   return result;
+}
+
+double percentile_of(std::span<const double> errors, double percent) {
+  require(!errors.empty() && percent >= 0 && percent <= 100, "a percentile from 0 to 100 of some errors");
+  std::vector<double> sorted(errors.begin(), errors.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double at = percent / 100 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace cairn

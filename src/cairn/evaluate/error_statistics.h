@@ -21,4 +21,8 @@ struct ErrorStatistics {
 /// Nothing for no errors. Sums run in order: the same bits each time.
 [[nodiscard]] std::optional<ErrorStatistics> summarize_errors(std::span<const double> errors);
 
+/// Returns the error that `percent` (0 to 100) of the errors are at most, interpolated linearly between two
+/// of them as numpy's percentile does. PreconditionError for no errors or another percentage.
+[[nodiscard]] double percentile_of(std::span<const double> errors, double percent);
+
 }  // namespace cairn

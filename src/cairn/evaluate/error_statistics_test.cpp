@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "cairn/core/error.h"
+
 namespace cairn {
 namespace {
 
@@ -20,6 +22,17 @@ TEST(ErrorStatistics, AreThoseOfNumpy) {
   EXPECT_EQ(even->min, 1.0);
   EXPECT_EQ(even->max, 5.0);
   EXPECT_EQ(summarize_errors(std::array{3.0, 9.0, 1.0})->median, 3.0);
+}
+
+TEST(ErrorStatistics, PercentilesAreThoseOfNumpy) {
+  const std::array errors{4.0, 1.0, 2.0, 5.0};
+  EXPECT_EQ(percentile_of(errors, 0), 1.0);
+  EXPECT_DOUBLE_EQ(percentile_of(errors, 50), 3.0);
+  EXPECT_DOUBLE_EQ(percentile_of(errors, 90), 4.7);
+  EXPECT_EQ(percentile_of(errors, 100), 5.0);
+  EXPECT_EQ(percentile_of(std::array{7.0}, 99), 7.0);
+  EXPECT_THROW((void)percentile_of({}, 50), PreconditionError);
+  EXPECT_THROW((void)percentile_of(errors, 101), PreconditionError);
 }
 
 TEST(ErrorStatistics, OfNothingAreNothing) {

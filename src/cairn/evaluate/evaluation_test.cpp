@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -273,20 +272,14 @@ TEST(Evaluation, RefusesPosesThatAreNoNumbers) {
   EXPECT_THROW((void)evaluate_trajectory(broken, trajectory_of(reference_pose)), PreconditionError);
 }
 
-TEST(EvaluationSlow, TakesATenthOfASecondForTwentyThousandPoses) {
+/// How long it takes is measured in benchmarks/evaluation.cpp.
+TEST(Evaluation, TakesTwentyThousandPoses) {
   const Trajectory estimate = trajectory_of(estimated_drive, 1'000'000, 20'000),
                    truth = trajectory_of(true_drive, 0, 20'000);
-  double best_s = HUGE_VAL;
-  for (int run = 0; run < 5; ++run) {  // the best, because others work on the machine, too
-    const auto begun = std::chrono::steady_clock::now();
-    const TrajectoryEvaluation found = evaluate_trajectory(estimate, truth);
-    best_s =
-        std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
-    ASSERT_EQ(found.pairs.size(), estimate.size());
-    ASSERT_TRUE(found.drift);
-  }
-  RecordProperty("milliseconds", std::to_string(1e3 * best_s));
-  EXPECT_LT(best_s, 0.1);
+  const TrajectoryEvaluation found = evaluate_trajectory(estimate, truth);
+  EXPECT_EQ(found.pairs.size(), estimate.size());
+  EXPECT_TRUE(found.drift);
+  EXPECT_EQ(found.absolute.ate_m->count, estimate.size());
 }
 
 TEST(Evaluation, MatchesMotionCaptureWithItself) {

@@ -128,4 +128,14 @@ PoseErrors relative_errors(std::span<const PosePair> pairs,
   return errors;
 }
 
+std::size_t count_within(const PoseErrors& errors, const PoseTolerance& tolerance) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < errors.translation_m.size(); ++i) {
+    const bool within = errors.translation_m[i] <= tolerance.translation_m &&
+                        errors.rotation_deg[i] <= tolerance.rotation_deg;
+    count += within ? 1 : 0;
+  }
+  return count;
+}
+
 }  // namespace cairn

@@ -19,6 +19,15 @@ struct PoseErrors {
 /// square after alignment this is the ATE of the TUM benchmark (Sturm et al. 2012, sec. IV-B) and evo's APE.
 [[nodiscard]] PoseErrors absolute_errors(std::span<const PosePair> pairs);
 
+/// What the error of a pose may be at most.
+struct PoseTolerance {
+  double translation_m = 0;
+  double rotation_deg = 0;
+};
+
+/// Returns the number of poses whose errors of translation and of rotation are both within the tolerance.
+[[nodiscard]] std::size_t count_within(const PoseErrors& errors, const PoseTolerance& tolerance);
+
 enum class RpeUnit { frames, metres, seconds };
 
 /// Between which poses a relative error is taken.

@@ -27,6 +27,14 @@ Intervals intervals(const std::vector<PosePair>& pairs, double delta, RpeUnit un
   return rpe_intervals(pairs, {delta, unit, all_pairs});
 }
 
+TEST(PoseErrors, WithinATolerance) {
+  const PoseErrors errors{{0.01, 0.05, 0.2, 0.03}, {1, 5, 1, 6}};
+  EXPECT_EQ(count_within(errors, {0.05, 5}), 2U);
+  EXPECT_EQ(count_within(errors, {0.05, 10}), 3U);
+  EXPECT_EQ(count_within(errors, {1, 1}), 2U);
+  EXPECT_EQ(count_within({}, {1, 1}), 0U);
+}
+
 TEST(PoseErrors, IntervalsByFrames) {
   const auto six = along_x({0, 1, 2, 3, 4, 5});
   EXPECT_EQ(intervals(six, 2, RpeUnit::frames, false), (Intervals{{0, 2}, {2, 4}}));

@@ -20,10 +20,15 @@ struct Arrival {
 class Frontend {
  public:
   Frontend(const Sequence& sequence, const ObserverOptions& options);
+  /// Observes frames that are resized first: `resized` is the sequence's camera after resized_camera.
+  Frontend(const Sequence& sequence, const ObserverOptions& options, const Camera& resized);
   [[nodiscard]] Arrival operator()(std::size_t index) const;
 
  private:
+  [[nodiscard]] Frame resize(Frame frame) const;
+
   FrameLoader loader_;
+  int width_, height_;  // of the frames that are observed
   Observer observer_;
 };
 

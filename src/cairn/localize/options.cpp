@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/localize/options.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/core/error.h"
 #include "cairn/core/parameter.h"
+#include "cairn/image/resize.h"
 
 namespace cairn {
-namespace {
-
-bool is_near(double a, double b, double scale) {
-  constexpr double kShare = 0.01;
-  return std::abs(a - b) <= kShare * scale;
-}
-
-std::string describe(const Rig& rig, int width, int height) {
-  return fmt::format("{}x{} fx {:.6g} fy {:.6g} cx {:.6g} cy {:.6g}", width, height, rig.fx, rig.fy, rig.cx,
-                     rig.cy);
-}
-
-}  // namespace
 
 void LocalizeOptions::validate() const {
   check_parameter(keyframes >= 1, "keyframes", "at least 1", keyframes);
@@ -55,17 +40,14 @@ ObserverOptions observer_options_for(const MapInfo& map, int features, double co
   return options;
 }
 
-void require_same_camera(const MapInfo& map, const QueryCamera& camera, const std::string& source) {
-  const bool same_size =
-      map.width == 0 || camera.width == 0 || (map.width == camera.width && map.height == camera.height);
-  const Rig &a = map.rig, &b = camera.rig;
-  const double scale = std::max(a.fx, a.fy);
-  if (same_size && is_near(a.fx, b.fx, scale) && is_near(a.fy, b.fy, scale) && is_near(a.cx, b.cx, scale) &&
-      is_near(a.cy, b.cy, scale))
-    return;
-  throw InputError({source, 0, "the camera of the map: " + describe(a, map.width, map.height),
-                    describe(b, camera.width, camera.height),
-                    "Give the calibration by --camera FILE; images of another camera by --any-camera."});
+Camera camera_for_queries(const MapInfo& map, const Camera& camera) {
+  constexpr double kTolerance = 1.1, kMostEnlarged = 2;
+  const double scale = std::sqrt(map.rig.fx * map.rig.fy / (camera.fx * camera.fy));
+  if (scale < kTolerance && scale * kTolerance > 1) return camera;
+  const auto resized = [&](int side) {
+    return std::max(1, static_cast<int>(std::lround(std::min(scale, kMostEnlarged) * side)));
+  };
+  return resized_camera(camera, resized(camera.width), resized(camera.height));
 }
 
 }  // namespace cairn

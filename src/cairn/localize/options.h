@@ -38,7 +38,7 @@ struct LocalizeOptions {
   void validate() const;
 };
 
-/// The camera that an image to be localised was seen by.
+/// The camera that an image to be localised was seen by, as the image is observed: after camera_for_queries.
 struct QueryCamera {
   Rig rig;                    ///< that the image's observations are of
   int width = 0, height = 0;  ///< pixels
@@ -48,8 +48,10 @@ struct QueryCamera {
 /// FeatureOptions.
 [[nodiscard]] ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast);
 
-/// InputError that names `source` unless the camera is the map's own: the same size of images, and focal
-/// lengths and centre within a hundredth. A map whose image size is not known fits any size.
-void require_same_camera(const MapInfo& map, const QueryCamera& camera, const std::string& source);
+/// Returns the camera of a query after its images are resized (resized_camera) to the map's pixels per
+/// radian, the geometric mean of the focal lengths: descriptors and the expected sizes of features hold for
+/// views of like resolution. Images that are within a tenth of it stay as they are, and those with fewer
+/// pixels per radian are enlarged at most twice, as enlarging adds no detail.
+[[nodiscard]] Camera camera_for_queries(const MapInfo& map, const Camera& camera);
 
 }  // namespace cairn

@@ -111,6 +111,10 @@ std::shared_ptr<const ViewedKeyframe> MapView::keyframe(KeyframeId id) const {
   return read;
 }
 
+std::uint64_t MapView::touched_bytes() const {
+  return points_.touched_bytes() + places_.touched_bytes();
+}
+
 void MapView::check() const {
   check_map_text(folder_, info_, kPosesFile);
   check_map_text(folder_, info_, kUvlistFile);

@@ -41,6 +41,9 @@ class MapView {
   /// Read when it is first asked for; those used last are kept in memory.
   [[nodiscard]] std::shared_ptr<const ViewedKeyframe> keyframe(KeyframeId id) const;
 
+  /// Returns what was read of the mapped files, landmarks and places, so far.
+  [[nodiscard]] std::uint64_t touched_bytes() const;
+
   /// Checks the bytes of all files, also of those that are never touched. Takes as long as reading them.
   void check() const;
 

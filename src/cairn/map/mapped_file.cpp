@@ -86,6 +86,14 @@ const char* MappedFile::bytes(std::uint64_t offset, std::uint64_t count) const {
   return contents_ + offset;
 }
 
+std::uint64_t MappedFile::touched_bytes() const {
+  std::uint64_t bytes = 0;
+  for (std::uint64_t block = 0; block * kBlockBytes < size_; ++block)
+    if (checked_[block].load(std::memory_order_relaxed))
+      bytes += std::min<std::uint64_t>(kBlockBytes, size_ - block * kBlockBytes);
+  return bytes;
+}
+
 void MappedFile::forget() const {
   ::madvise(const_cast<char*>(contents_), file_bytes_, MADV_DONTNEED);
 }

@@ -32,6 +32,8 @@ class MappedFile {
   void fetch(std::uint64_t offset, std::uint64_t count) const;
   /// The memory may do without what was read so far; it is read again when it is asked for.
   void forget() const;
+  /// Returns the bytes of all blocks that were asked for so far: what was read of the file.
+  [[nodiscard]] std::uint64_t touched_bytes() const;
   template <class Value>
   [[nodiscard]] Value at(std::uint64_t offset) const {
     static_assert(std::is_arithmetic_v<Value>);

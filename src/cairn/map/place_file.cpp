@@ -64,6 +64,7 @@ void PlaceFile::visit(std::span<const DescriptorTree::Visit> visits, const Descr
   const std::size_t stride = kind_.stride();
   const auto rows = file_.values<std::uint64_t>(layout_.rows + leaf.first * stride, leaf.count * stride / 8);
   const auto landmarks = file_.values<std::uint32_t>(layout_.landmarks + 4 * leaf.first, leaf.count);
+  compared_rows_.fetch_add(leaf.count * visits.size(), std::memory_order_relaxed);
   std::vector<std::int32_t> ascending(leaf.count), distances;
   std::iota(ascending.begin(), ascending.end(), 0);
   for (const DescriptorTree::Visit& visit : visits) {

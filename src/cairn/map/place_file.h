@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -40,6 +41,11 @@ class PlaceFile {
   [[nodiscard]] std::vector<Neighbours> find(const Descriptors& queries, double max_distance_share,
                                              std::size_t leaves_per_descriptor) const;
 
+  /// Returns how many stored descriptors `find` has compared with those asked for so far, by all threads.
+  [[nodiscard]] std::uint64_t compared_rows() const { return compared_rows_.load(std::memory_order_relaxed); }
+  /// Returns what was read of the file so far, see MappedFile.
+  [[nodiscard]] std::uint64_t touched_bytes() const { return file_.touched_bytes(); }
+
   /// The keyframes of so many rows of Descriptor.bin, from `first_row` on.
   [[nodiscard]] std::span<const std::int32_t> keyframes(std::uint64_t first_row, std::uint32_t count) const;
 
@@ -63,6 +69,7 @@ class PlaceFile {
   PlaceLayout layout_;
   std::uint64_t landmarks_ = 0, keyframes_ = 0;  // that there are
   std::vector<std::uint32_t> shown_landmarks_;
+  mutable std::atomic<std::uint64_t> compared_rows_ = 0;
   std::optional<DescriptorTree> tree_;  // nothing where the map has no descriptors
 };
 

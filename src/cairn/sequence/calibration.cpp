@@ -210,7 +210,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
   }
   if (mapping.has("rate_hz")) {
     calibration.rate_hz = mapping.positive("rate_hz");
-    mapping.check(calibration.rate_hz <= 1e6, "rate_hz", "at most a million frames per second");
+    mapping.check(*calibration.rate_hz <= 1e6, "rate_hz", "at most a million frames per second");
   }
   return calibration;
 }
@@ -236,7 +236,8 @@ std::string format_calibration(const Calibration& calibration) {
   if (calibration.body_from_camera)
     text += fmt::format("body:\n  body_from_camera: {}\n", format_transform(*calibration.body_from_camera));
   if (calibration.poses_are == PosesAre::depth) text += "poses_are: depth\n";
-  return text + fmt::format("rate_hz: {}\n", calibration.rate_hz);
+  if (calibration.rate_hz) text += fmt::format("rate_hz: {}\n", *calibration.rate_hz);
+  return text;
 }
 
 std::optional<Calibration> known_calibration(const std::string& name) {

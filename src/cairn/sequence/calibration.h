@@ -39,7 +39,14 @@ struct Calibration {
   /// Where the camera sits on the body whose poses are given (lever arm and boresight), in the body's axes;
   /// of a raw stereo pair the left camera as it was recorded.
   std::optional<Rigid3> body_from_camera;
-  double rate_hz = 30.0;  ///< for formats without time stamps
+  /// Frames a second of a sequence without time stamps; nothing if nobody states it.
+  std::optional<double> rate_hz;
+
+  /// Returns the stated rate, or else 30 Hz, which then only spaces the stamps.
+  [[nodiscard]] double stamp_rate_hz() const {
+    constexpr double kVideo = 30;
+    return rate_hz.value_or(kVideo);
+  }
 };
 
 /// Where something of a calibration stands, for messages; line 0 where it means nothing.

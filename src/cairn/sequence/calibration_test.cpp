@@ -51,7 +51,8 @@ TEST_F(CalibrationTest, little_is_enough) {
   EXPECT_FALSE(read_back.baseline);
   EXPECT_FALSE(read_back.depth);
   EXPECT_EQ(read_back.poses_are, PosesAre::camera);
-  EXPECT_EQ(read_back.rate_hz, 30);
+  EXPECT_FALSE(read_back.rate_hz);
+  EXPECT_EQ(read_back.stamp_rate_hz(), 30);
 }
 
 TEST_F(CalibrationTest, reads_distorted_cameras) {

@@ -17,7 +17,7 @@ void expect_size(const Image<Pixel>& image, const Camera& camera, const std::fil
       {path.string(), 0,
        fmt::format("an image of {}x{} pixels, as the calibration says", camera.width, camera.height),
        fmt::format("{}x{}", image.width(), image.height()),
-       "Give the calibration that belongs to these images."});
+       "Give the calibration of these images, by --camera FILE or as camera.yaml in their folder."});
 }
 
 /// An image of one camera of a stereo pair, or of the only one, as the calibration's camera sees it.

@@ -59,14 +59,18 @@ TEST_F(FrameLoaderTest, registers_the_depth_of_another_camera) {
 
 TEST_F(FrameLoaderTest, images_of_another_size_are_refused) {
   write_png(folder_ / "rgb/1.png", GrayImage(9, 6));
-  EXPECT_EQ(refusal(), place("rgb/1.png") +
-                           ": expected an image of 8x6 pixels, as the calibration says, found 9x6.\n"
-                           "  Give the calibration that belongs to these images.");
+  EXPECT_EQ(
+      refusal(),
+      place("rgb/1.png") +
+          ": expected an image of 8x6 pixels, as the calibration says, found 9x6.\n"
+          "  Give the calibration of these images, by --camera FILE or as camera.yaml in their folder.");
   put_color("rgb/1.png");
   write_png(folder_ / "depth/1.png", RawDepthImage(8, 5));
-  EXPECT_EQ(refusal(), place("depth/1.png") +
-                           ": expected an image of 8x6 pixels, as the calibration says, found 8x5.\n"
-                           "  Give the calibration that belongs to these images.");
+  EXPECT_EQ(
+      refusal(),
+      place("depth/1.png") +
+          ": expected an image of 8x6 pixels, as the calibration says, found 8x5.\n"
+          "  Give the calibration of these images, by --camera FILE or as camera.yaml in their folder.");
 }
 
 TEST_F(FrameLoaderTest, broken_and_missing_images_are_refused_by_name) {

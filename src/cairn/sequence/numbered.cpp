@@ -76,7 +76,7 @@ void read_numbered_truth(const fs::path& path, Sequence& sequence) {
   TrajectoryFile file = read_trajectory_file(path, {.may_have_numbers = true});
   if (file.key != PoseKey::number) return;
   for (StampedPose& pose : file.poses)
-    pose.stamp_ns = stamp_of_number(pose.stamp_ns, sequence.calibration.rate_hz);
+    pose.stamp_ns = stamp_of_number(pose.stamp_ns, sequence.calibration.stamp_rate_hz());
   sequence.truth = std::move(file.poses);
   sequence.report.warnings = std::move(file.warnings);
 }
@@ -89,6 +89,7 @@ bool is_numbered(const fs::path& folder, const SequenceOptions& options) {
 
 void list_numbered(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
   sequence.format = "numbered";
+  sequence.has_times = sequence.calibration.rate_hz.has_value();
   const FolderPair names = folders(folder, options).value();
   const auto color = numbered_files(resolve(folder, names.color), options.rgb_extension);
   const auto depth = numbered_files(resolve(folder, names.depth), options.depth_extension);
@@ -96,7 +97,7 @@ void list_numbered(const fs::path& folder, const SequenceOptions& options, Seque
     const auto partner = depth.find(number);
     if (partner == depth.end()) continue;
     sequence.frames.push_back(
-        {stamp_of_number(number, sequence.calibration.rate_hz), number, path, partner->second, {}});
+        {stamp_of_number(number, sequence.calibration.stamp_rate_hz()), number, path, partner->second, {}});
   }
   sequence.report.color_images = static_cast<std::int64_t>(color.size());
   sequence.report.depth_images = static_cast<std::int64_t>(depth.size());

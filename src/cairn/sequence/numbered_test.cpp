@@ -35,6 +35,14 @@ TEST_F(NumberedTest, orders_by_number_not_by_name) {
   EXPECT_EQ(sequence.truth->at(1).stamp_ns, sequence.frames[2].stamp_ns);
 }
 
+TEST_F(NumberedTest, numbers_are_times_only_with_a_stated_rate) {
+  EXPECT_FALSE(open_sequence(folder_).has_times);
+  put("camera.yaml", kSmallCamera + std::string("rate_hz: 30\n"));
+  const Sequence stated = open_sequence(folder_);
+  EXPECT_TRUE(stated.has_times);
+  EXPECT_EQ(stated.frames[1].stamp_ns, 666'666'667);
+}
+
 TEST_F(NumberedTest, poses_by_time_are_no_poses_by_number) {
   put("trajectory.txt", "3.5 0 0 1 0 0 0 1\n");
   EXPECT_FALSE(open_sequence(folder_).truth);

@@ -43,10 +43,14 @@ struct Sequence {
   std::filesystem::path folder;
   std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI", "EuRoC"
   Calibration calibration;
-  std::string calibration_source;              ///< where the calibration comes from, for people
-  std::vector<FrameFiles> frames;              ///< stamps strictly increasing
-  std::int64_t listed = 0;                     ///< frames of the recording, before they were chosen
+  std::string calibration_source;  ///< where the calibration comes from, for people
+  std::vector<FrameFiles> frames;  ///< stamps strictly increasing
+  /// Whether the stamps are times: from lists, or file numbers over a rate that the calibration states or the
+  /// format implies (7-Scenes is a video at 30 Hz). False: they only keep the frames apart, and nothing is
+  /// known about the time between two of them.
+  bool has_times = true;
   std::optional<std::int64_t> first_stamp_ns;  ///< of the recording, before frames were chosen
+  std::int64_t listed = 0;                     ///< frames of the recording, before they were chosen
   /// world_from_camera of the colour (rectified left) camera, where the format carries it.
   std::optional<Trajectory> truth;
   SequenceReport report;

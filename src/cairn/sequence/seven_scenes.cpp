@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // 7-Scenes (Shotton et al. 2013): frame-NNNNNN.color.png|jpg, frame-NNNNNN.depth.png, frame-NNNNNN.pose.txt
-// with the 4x4 matrix world_from_camera (of which camera: `poses_are`). No time stamps.
+// with the 4x4 matrix world_from_camera (of which camera: `poses_are`). No time stamps: videos of a Kinect,
+// 30 Hz.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -122,7 +123,7 @@ void list_seven_scenes(const fs::path& folder, Sequence& sequence) {
     sequence.report.color_images += files.color.empty() ? 0 : 1;
     sequence.report.depth_images += files.depth.empty() ? 0 : 1;
     if (files.color.empty() || files.depth.empty()) continue;
-    const std::int64_t stamp_ns = stamp_of_number(number, sequence.calibration.rate_hz);
+    const std::int64_t stamp_ns = stamp_of_number(number, sequence.calibration.stamp_rate_hz());
     sequence.frames.push_back({stamp_ns, number, files.color, files.depth, {}});
     if (files.pose.empty()) continue;
     if (const auto pose = read_pose(files.pose)) truth.push_back({stamp_ns, *pose});

@@ -49,6 +49,10 @@ TEST_F(SevenScenesTest, the_rate_makes_the_stamps) {
   EXPECT_EQ(open_sequence(folder_).frames[2].stamp_ns, 1'000'000'000);
 }
 
+TEST_F(SevenScenesTest, is_a_video_at_30_hz) {
+  EXPECT_TRUE(open_sequence(folder_).has_times);
+}
+
 TEST_F(SevenScenesTest, files_of_other_kinds_do_not_matter) {
   for (const char* kind : {"color.png.bak", "depth.proj.png", "color.txt", "pose.txt~"})
     put(name("000002", kind), "");

@@ -96,7 +96,6 @@ Calibration SimulatedRoom::calibration() const {
   calibration.camera = options_.camera;
   calibration.depth.emplace();
   calibration.depth->scale = options_.depth_scale;
-  calibration.rate_hz = options_.rate_hz;
   return calibration;
 }
 

@@ -88,7 +88,6 @@ Calibration SimulatedStreet::calibration() const {
   Calibration calibration;
   calibration.camera = options_.camera;
   calibration.baseline = options_.baseline;
-  calibration.rate_hz = options_.rate_hz;
   return calibration;
 }
 
