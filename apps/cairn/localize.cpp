@@ -15,6 +15,7 @@
 #include "localize_parameters.h"
 #include "localize_pictures.h"
 #include "localize_query.h"
+#include "map_pictures.h"
 
 namespace cairn::app {
 namespace {
@@ -186,6 +187,7 @@ int run_localize(int argc, char** argv) {
                   arguments.prior == kFollow);
   run_all(run, sequence, executor, *progress);
   check.wait();
+  write_found_picture(arguments.map, run.images(), folder.work());
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 
   summary.images = sequence.frames.size();

@@ -8,7 +8,7 @@ from inputs import file, folder, png_bytes, replaced, tum_sequence, trajectory, 
 
 MAP, SEQ = map_folder(), tum_sequence()
 RUN = "localize map seq -o run --quiet"
-LEFT = ("run/trajectory.txt", "run/localization.csv", "run/run.json", "run/.cairn")
+LEFT = ("run/landmarks.png", "run/trajectory.txt", "run/localization.csv", "run/run.json", "run/.cairn")
 NOT_FOUND = "cairn localize: none of 3 images was found in the map."
 
 
