@@ -14,6 +14,7 @@
 #include "localize_parameters.h"
 #include "localize_pictures.h"
 #include "localize_query.h"
+#include "map_pictures.h"
 #include "pose_arguments.h"
 
 namespace cairn::app {
@@ -204,6 +205,7 @@ int run_localize(int argc, char** argv) {
                   read_priors(arguments, sequence), follows(arguments, sequence, *progress));
   run_all(run, sequence, executor, *progress);
   check.wait();
+  write_found_picture(arguments.map, run.images(), folder.work());
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 
   summary.images = sequence.frames.size();

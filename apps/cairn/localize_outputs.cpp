@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "cairn/core/text.h"
+#include "map_pictures.h"
 
 namespace cairn::app {
 namespace {
@@ -253,6 +254,7 @@ void print_localize_summary(const std::vector<LocalizedImage>& images, const Loc
              summary.open_seconds, median_ms(images, &LocalizedImage::feature_seconds),
              median_ms(images, &LocalizedImage::localize_seconds));
   fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
+  fmt::print("picture      {}/{}, the poses in the map from above\n", summary.output, kMapPicture);
   fmt::print("written to   {}\n", summary.output);
 }
 

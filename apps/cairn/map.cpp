@@ -4,6 +4,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/map/colmap_export.h"
+#include "cairn/map/colmap_sources.h"
 #include "cairn/report/landmark_ply.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/diagnosis.h"
@@ -12,6 +13,7 @@
 #include "common.h"
 #include "map_outputs.h"
 #include "map_parameters.h"
+#include "map_pictures.h"
 #include "pose_arguments.h"
 
 namespace cairn::app {
@@ -29,7 +31,7 @@ void declare(CLI::App& app, MapArguments& arguments) {
   app.add_option("-o,--output", arguments.output, "map folder; one that cairn wrote is replaced")
       ->type_name("MAP")
       ->required();
-  app.add_option("--export", arguments.exported, "also the model in another program's files, in MAP/colmap")
+  app.add_option("--export", arguments.exported, "also a sparse model for another program, in MAP/colmap")
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"colmap"}, CLI::ignore_case));
   add_pose_options(app, arguments.poses);
@@ -91,6 +93,7 @@ int run_map(int argc, char** argv) {
   const std::string settings = parameters.table().format();
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
   print_warnings(sequence.report.warnings);
+  if (!arguments.exported.empty()) check_colmap_names(sequence);
   const GivenPoses poses = read_given_poses(sequence, arguments.poses.options());
   print_warnings(poses.warnings);
   OutputFolder folder(arguments.output, "map", has_unfinished_survey);
@@ -98,13 +101,17 @@ int run_map(int argc, char** argv) {
   const auto progress = make_progress(arguments.common);
   const SurveyResult result =
       run_survey({sequence, poses, settings}, parameters.survey, folder.work(), executor, *progress);
-  MapSummary summary{arguments.output, poses.format, static_cast<std::int64_t>(sequence.frames.size()),
-                     executor.threads(), watch.seconds()};
+  MapSummary summary{arguments.output,   poses.format,    static_cast<std::int64_t>(sequence.frames.size()),
+                     executor.threads(), watch.seconds(), {}};
   if (result.stopped) return report_stop(result, summary);
   write_file(folder.work() / "report.json", format_map_report(result));
   write_file(folder.work() / "config.yaml", settings);
   write_landmark_ply(folder.work(), folder.work() / "landmarks.ply");
-  if (!arguments.exported.empty()) write_colmap_model(folder.work(), folder.work() / "colmap");
+  write_map_picture(folder.work(), folder.work());
+  if (!arguments.exported.empty()) {
+    write_colmap_model(folder.work(), sequence, folder.work() / "colmap", executor, *progress);
+    summary.image_root = colmap_image_root(sequence).string();
+  }
   folder.commit();
   summary.total_seconds = watch.seconds();
   arguments.common.json ? fmt::print("{}", format_map_json(result, summary))

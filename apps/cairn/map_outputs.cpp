@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common.h"
+#include "map_pictures.h"
 
 namespace cairn::app {
 namespace {
@@ -122,6 +123,9 @@ void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
       "deviations   {:.2g} m by what the images leave open, {:.2g} m by the poses' (RMS, worst direction)\n",
       result.image_std_rms_m, result.pose_std_rms_m);
   fmt::print("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
+  fmt::print("picture      {}/{}, the landmarks from above\n", summary.folder, kMapPicture);
+  if (!summary.image_root.empty())
+    fmt::print("colmap       {}/colmap, with --image_path {}\n", summary.folder, summary.image_root);
   fmt::print("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
              1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));
   fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());

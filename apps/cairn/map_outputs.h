@@ -14,6 +14,7 @@ struct MapSummary {
   std::int64_t sequence_frames = 0;
   int threads = 1;
   double total_seconds = 0;
+  std::string image_root;  ///< that names in the model for COLMAP are relative to; empty: none was written
 };
 
 /// The report in the map's folder: counts, the same in every run.

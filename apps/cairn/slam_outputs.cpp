@@ -17,6 +17,7 @@
 #include "cairn/map/g2o_file.h"
 #include "cairn/map/map_file.h"
 #include "fusion.h"
+#include "map_pictures.h"
 
 namespace cairn::app {
 namespace {
@@ -141,6 +142,7 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
   write_file(folder / "frames.csv", format_frames_csv(result));
   write_map(folder / "map", result.map, result.covariances);
+  write_map_picture(folder / "map", folder);
   write_file(folder / "camera.yaml", format_calibration(sequence.calibration));
   write_file(folder / "config.yaml",
              "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
@@ -250,6 +252,7 @@ void print_summary(const Sequence& sequence, const SlamResult& result, const Sla
     fmt::print("accuracy     ATE RMSE {:.2f} cm against the sequence's truth (SE(3) alignment, {} pairs)\n",
                100 * *summary.ate_m, summary.ate_pairs);
   }
+  fmt::print("picture      {}/{}, the map from above\n", folder, kMapPicture);
   if (wanted.cloud && summary.fused)
     fmt::print("cloud        {}/cloud.ply, {} points; a picture of it in cloud.png\n", folder,
                summary.cloud_points);

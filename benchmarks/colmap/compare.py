@@ -40,7 +40,7 @@ def run_cairn(arguments, folder):
         child.returncode = os.waitstatus_to_exitcode(status)
     if child.returncode != 0:
         raise SystemExit("cairn map failed")
-    return {**figures_of(folder / "colmap", lambda name: True), "wall_s": time.monotonic() - begin, "cpu_s": usage.ru_utime + usage.ru_stime}
+    return {**figures_of(folder / "colmap", lambda name: name.startswith("image_0/")), "wall_s": time.monotonic() - begin, "cpu_s": usage.ru_utime + usage.ru_stime}
 
 
 def run_colmap(arguments, name, poses, matches):

@@ -8,7 +8,7 @@ features, its matches, its point_triangulator. `apt-get install colmap` brings t
 
 WORK/model has the result as text, WORK/times.json the seconds of each stage. Matched are the left and the right
 image of each pair, and the left images of each two frames that are at most `window` frames apart. The poses are those of
-poses.txt, or with --poses those of a model's images: as `cairn map --export colmap` writes them, which leaves out
+poses.txt, or with --poses those of a model's left images: as `cairn map --export colmap` writes them, which leaves out
 frames that show nothing new. --matches takes features and matches of an earlier run with the same frames."""
 
 import argparse
@@ -58,7 +58,9 @@ def camera_from_world(row):
 def read_poses(sequence, count, model):
     """By number of the frame: quaternion and translation, camera_from_world."""
     if model:
-        poses = {int(Path(image.name).stem): (image.quaternion, image.translation) for image in read_images(model).values()}
+        files = [file.name for file in sorted((sequence / "image_0").iterdir())]
+        poses = {files.index(Path(image.name).name): (image.quaternion, image.translation)
+                 for image in read_images(model).values() if image.name.startswith("image_0/")}
         return {frame: pose for frame, pose in sorted(poses.items()) if frame < count}
     rows = [list(map(float, line.split())) for line in (sequence / "poses.txt").read_text().splitlines()]
     return {frame: camera_from_world(row) for frame, row in enumerate(rows[:count])}

@@ -8,7 +8,7 @@ from inputs import CAMERA, file, folder, png_bytes, replaced, tum_sequence, traj
 
 MAP, SEQ = map_folder(), tum_sequence()
 RUN = "localize map seq -o run --quiet"
-LEFT = ("run/trajectory.txt", "run/localization.csv", "run/run.json", "run/.cairn")
+LEFT = ("run/landmarks.png", "run/trajectory.txt", "run/localization.csv", "run/run.json", "run/.cairn")
 LARGE = "camera: {model: pinhole, width: 160, height: 120, fx: 125.0, fy: 125.0, cx: 79.5, cy: 59.5}\n"
 NOT_FOUND = "cairn localize: none of 3 images was found in the map."
 

@@ -74,8 +74,20 @@ def inverse(t, q):
     return [*(-x for x in rotate(back, t)), *back]
 
 
-FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Place.bin", "Point.bin", "config.yaml", "frames", "landmarks.ply", "map.json", "poses.txt", "report.json",
-                                         "uvlist.txt", ".cairn"))
+def colmap_map(root):
+    cairn(root, "map", "street", "-o", "map", "--quiet", "--export", "colmap", *SMALL.split())
+
+
+FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Place.bin", "Point.bin", "config.yaml", "frames", "landmarks.ply", "landmarks.png", "map.json", "poses.txt",
+                                         "report.json", "uvlist.txt", ".cairn"))
+
+
+COLMAP_FILES = tuple(f"map/colmap/{name}.{form}" for name in ("cameras", "images", "points3D") for form in ("bin", "txt"))
+
+
+def blank_in_a_name(root):
+    for image in list((root / "street").glob("image_*/*.png")):
+        image.rename(image.with_name("street " + image.name))
 
 
 def out_of_range(setting, says):
@@ -141,10 +153,20 @@ CASES = [
     Case("limits that no landmark holds", f"map street -o map --quiet {SMALL} --set clean.max_std_m=1e-9",
          ("cairn map: not one landmark", "fell to clean.max_std_m (1e-09 m"), (street(),), code=1, leaves=("map",)),
     Case("given poses", f"map street --poses street/poses.txt -o map --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),
-         prints=("frames       10 of 10 mapped", "poses        KITTI", "landmarks    ")),
+         prints=("frames       10 of 10 mapped", "poses        KITTI", "landmarks    ", "picture      map/landmarks.png")),
     Case("figures as JSON", f"map street -o map --json --quiet {SMALL}", given=(street(),), code=0, leaves=("map",),
          prints=('"mapped": 10', '"stopped": false', '"resumed_at": 0', '"landmarks": ', '"peak_memory_mb": ')),
     Case("a map of the same name is replaced", f"map street -o map --quiet {SMALL}", given=(street(), earlier_map), code=0, leaves=FILES),
+    # models for other programs
+    Case("a model for COLMAP", f"map street -o map --quiet --export colmap {SMALL}", given=(street(),), code=0, leaves=("map", *FILES, *COLMAP_FILES),
+         prints=("colmap       map/colmap, with --image_path /",)),
+    Case("names that COLMAP cannot read", f"map street -o map --quiet --export colmap {SMALL}",
+         ("street/image_0/street 000000.png: expected names of images without blanks", "found 'image_0/street 000000.png'", "Rename the images"),
+         (street(), blank_in_a_name)),
+    Case("a model for another program", "map street -o map --export meshroom", ("--export",), (street(),)),
+    Case("the map with its pictures and models is whole", "info map", given=(street(), colmap_map), code=0, prints=("keyframes", "landmarks")),
+    Case("a picture of a drive without poses", "slam street -o run --quiet", given=(street(),), code=0, leaves=("run", "run/landmarks.png"),
+         prints=("picture      run/landmarks.png",)),
 ]
 
 

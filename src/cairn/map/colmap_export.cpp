@@ -4,15 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/geometry/unit_rotation.h"
+#include "cairn/core/text.h"
+#include "cairn/image/codec.h"
+#include "cairn/map/colmap_features.h"
+#include "cairn/map/colmap_files.h"
+#include "cairn/map/colmap_sources.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
@@ -23,41 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPixelCentre = 0.5;
-constexpr double kUnknownError = -1;  // as COLMAP has it
-
-/// A landmark's place and what its sightings have summed up to so far.
-struct SightedPoint {
-  Eigen::Vector3d point_in_world;
-  float distance_sum_px = 0;
-  std::uint32_t shown = 0;
-  std::uint32_t sightings = 0;  // that it is to have
-};
-
-/// Text that goes to a file by and by.
-class TextWriter {
- public:
-  explicit TextWriter(const fs::path& path) : file_(path) {}
-  template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
-    if (text_.size() >= kPiece) flush();
-  }
-  void commit() {
-    flush();
-    file_.commit();
-  }
-
- private:
-  static constexpr std::size_t kPiece = 1 << 16;
-  void flush() {
-    file_.write({text_.data(), text_.size()});
-    text_.clear();
-  }
-
-  AtomicFile file_;
-  fmt::memory_buffer text_;
-};
+constexpr double kPixelCentre = 0.5;  // where COLMAP has it
+constexpr std::uint32_t kLeftCamera = 1, kRightCamera = 2;
 
 void require_one_world(const fs::path& folder, const MapInfo& info) {
   const auto other = std::find_if(info.keyframes.begin(), info.keyframes.end(), [&](const KeyframeEntry& e) {
@@ -70,123 +40,263 @@ void require_one_world(const fs::path& folder, const MapInfo& info) {
          "Export a map whose keyframes are all connected."});
 }
 
-void write_camera(const fs::path& path, const MapInfo& info) {
-  const Rig& rig = info.rig;
-  write_file(
-      path,
-      fmt::format("# CAMERA_ID, MODEL, WIDTH, HEIGHT, fx, fy, cx, cy; pixels have their centres at .5\n"
-                  "1 PINHOLE {} {} {} {} {} {}\n",
-                  info.width, info.height, rig.fx, rig.fy, rig.cx + kPixelCentre, rig.cy + kPixelCentre));
-}
-
-std::vector<SightedPoint> read_points(const fs::path& folder, const MapInfo& info) {
-  std::vector<SightedPoint> points;
-  LandmarkStream stream(folder, info);
-  while (const auto landmark = stream.next())
-    points.push_back({landmark->point_in_world, 0, 0, landmark->sightings});
-  return points;
-}
-
-/// Of pixel and projection; infinite where the point is not in front of the camera.
-float distance_px(const Rig& rig, const Eigen::Vector3d& point_in_camera, const Observation& seen) {
-  if (!is_in_front(point_in_camera)) return std::numeric_limits<float>::infinity();
-  const Eigen::Vector3d projected = rig.project(point_in_camera);
-  return static_cast<float>(std::hypot(projected.x() - seen.u, projected.y() - seen.v));
-}
-
-/// The numbers that images are called by: of frames where all are known, else of keyframes.
-std::vector<std::int32_t> image_numbers(const MapInfo& info) {
-  std::vector<std::int32_t> numbers;
-  for (const KeyframeEntry& entry : info.keyframes) numbers.push_back(entry.frame.value);
-  if (*std::min_element(numbers.begin(), numbers.end()) < 0)
-    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<std::int32_t>(i);
-  return numbers;
-}
-
-/// The image's two lines.
-void add_image(const FrameFile& frame, std::int32_t number, const CameraFromWorld& camera_from_world,
-               TextWriter& file) {
-  const Eigen::Quaterniond q = unit_rotation(camera_from_world.rotation);
-  const Eigen::Vector3d& t = camera_from_world.translation;
-  file.add("{} {} {} {} {} {} {} {} 1 {:06}.png\n", frame.number.value + 1, q.w(), q.x(), q.y(), q.z(), t.x(),
-           t.y(), t.z(), number);
-  const std::vector<Observation>& seen = frame.observed.observations;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const LandmarkId id = frame.landmarks[i];
-    file.add("{}{:.4f} {:.4f} {}", i == 0 ? "" : " ", seen[i].u + kPixelCentre, seen[i].v + kPixelCentre,
-             id.valid() ? id.value + 1 : -1);
-  }
-  file.add("\n");
-}
-
-void add_sightings(const Rig& rig, const FrameFile& frame, const CameraFromWorld& camera_from_world,
-                   std::vector<SightedPoint>& points) {
-  for (std::size_t i = 0; i < frame.landmarks.size(); ++i) {
-    if (!frame.landmarks[i].valid()) continue;
-    SightedPoint& point = points[static_cast<std::size_t>(frame.landmarks[i].value)];
-    point.distance_sum_px +=
-        distance_px(rig, camera_from_world * point.point_in_world, frame.observed.observations[i]);
-    ++point.shown;
+/// InputError unless every keyframe is a frame of the sequence.
+void require_frames(const fs::path& folder, const MapInfo& info, const Sequence& sequence) {
+  for (std::size_t i = 0; i < info.keyframes.size(); ++i) {
+    const auto& [frame, stamp_ns, part, checksum] = info.keyframes[i];
+    const auto position = static_cast<std::size_t>(frame.value);
+    if (frame.valid() && position < sequence.frames.size() && sequence.frames[position].stamp_ns == stamp_ns)
+      continue;
+    throw InputError({(folder / kMapInfoFile).string(), 0,
+                      fmt::format("keyframes that are frames of {}", sequence.folder.string()),
+                      fmt::format("keyframe {} of frame {} at {} s", i, frame.value, format_stamp(stamp_ns)),
+                      "Export a map together with the sequence, and its --frames, that it was made of."});
   }
 }
 
-void write_images(const fs::path& path, const fs::path& folder, const MapInfo& info,
-                  std::vector<SightedPoint>& points) {
-  const std::vector<WorldFromCamera> poses = read_map_poses(folder, info);
-  const std::vector<std::int32_t> numbers = image_numbers(info);
-  TextWriter file(path);
-  file.add("# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; POINTS2D[] as (X, Y, POINT3D_ID)\n");
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const FrameFile frame = read_frame_file(folder, info, {static_cast<std::int32_t>(i)});
-    const CameraFromWorld camera_from_world = poses[i].inverse();
-    add_image(frame, numbers[i], camera_from_world, file);
-    add_sightings(info.rig, frame, camera_from_world, points);
+/// Interpolates between the centres of four pixels; beyond the border the nearest pixel counts.
+Rgb8 color_at(const RgbImage& image, const Eigen::Vector2d& pixel) {
+  const double x = std::clamp(pixel.x(), 0.0, image.width() - 1.0);
+  const double y = std::clamp(pixel.y(), 0.0, image.height() - 1.0);
+  const int u = static_cast<int>(x), v = static_cast<int>(y);
+  const int next_u = std::min(u + 1, image.width() - 1), next_v = std::min(v + 1, image.height() - 1);
+  const auto channel = [&](std::uint8_t Rgb8::*of) {
+    const double above = (1 - (x - u)) * image(u, v).*of + (x - u) * image(next_u, v).*of;
+    const double below = (1 - (x - u)) * image(u, next_v).*of + (x - u) * image(next_u, next_v).*of;
+    return static_cast<std::uint8_t>(std::lround((1 - (y - v)) * above + (y - v) * below));
+  };
+  return {channel(&Rgb8::r), channel(&Rgb8::g), channel(&Rgb8::b)};
+}
+
+/// Returns the median of each channel, of an even number the lower one; there is a colour at least.
+Rgb8 median_color(std::vector<Rgb8>& colors) {
+  const auto channel = [&](std::uint8_t Rgb8::*of) {
+    const auto middle = colors.begin() + static_cast<std::ptrdiff_t>((colors.size() - 1) / 2);
+    std::nth_element(colors.begin(), middle, colors.end(),
+                     [of](const Rgb8& a, const Rgb8& b) { return a.*of < b.*of; });
+    return *middle.*of;
+  };
+  return {channel(&Rgb8::r), channel(&Rgb8::g), channel(&Rgb8::b)};
+}
+
+/// A keyframe's images and features.
+struct ExportedKeyframe {
+  ColmapImage left;
+  std::optional<ColmapImage> right;
+  std::vector<RecordedFeature> features;
+  std::uint64_t sightings = 0;
+};
+
+class Exporter {
+ public:
+  Exporter(const fs::path& folder, const MapInfo& info, const Sequence& sequence)
+      : folder_(folder),
+        info_(info),
+        sequence_(sequence),
+        root_(colmap_image_root(sequence)),
+        rig_(recorded_rig(sequence)),
+        poses_(read_map_poses(folder, info)) {}
+
+  [[nodiscard]] ColmapCounts counts() const {
+    return {images_each(), poses_.size() * images_each(), info_.landmarks};
   }
-  file.commit();
+  void add_cameras(ColmapWriter& writer) const {
+    writer.add_camera(kLeftCamera, rig_.left.camera);
+    if (rig_.right) writer.add_camera(kRightCamera, rig_.right->camera);
+  }
+  /// Reads a keyframe and decodes its image; safe to call from several threads.
+  [[nodiscard]] ExportedKeyframe keyframe(std::size_t number) const;
+  /// Gathers the track of a landmark; to be called in their order, as `sightings` hands out the next rows.
+  [[nodiscard]] ColmapPoint point(std::size_t number, const StoredLandmark& landmark,
+                                  SightingStream& sightings, RecordedFeatures& features) const;
+
+ private:
+  [[nodiscard]] std::uint32_t images_each() const { return rig_.right ? 2 : 1; }
+  [[nodiscard]] std::uint32_t left_number(std::size_t keyframe) const {
+    return static_cast<std::uint32_t>(keyframe) * images_each() + 1;
+  }
+  [[nodiscard]] CameraFromWorld left_from_world(std::size_t keyframe) const {
+    return CameraFromWorld(Rigid3{rig_.left.recorded_from_map, Eigen::Vector3d::Zero()} *
+                           poses_[keyframe].inverse());
+  }
+  [[nodiscard]] CameraFromWorld right_from_world(std::size_t keyframe) const {
+    const Rigid3 right_from_map{rig_.right->recorded_from_map,
+                                rig_.right->recorded_from_map * Eigen::Vector3d(-rig_.baseline, 0, 0)};
+    return CameraFromWorld(right_from_map * poses_[keyframe].inverse());
+  }
+  void add_feature(const Observation& seen, LandmarkId landmark, const RgbImage& image,
+                   ExportedKeyframe& exported) const;
+  [[noreturn]] void fail_contradiction(std::size_t landmark, const Sighting& sighting) const;
+
+  const fs::path& folder_;
+  const MapInfo& info_;
+  const Sequence& sequence_;
+  fs::path root_;
+  RecordedRig rig_;
+  std::vector<WorldFromCamera> poses_;
+};
+
+/// Lists the feature in an image, if it has a pixel there; returns its position in the list, -1 if it has
+/// none.
+std::int32_t list_pixel(const std::optional<Eigen::Vector2d>& pixel, LandmarkId landmark,
+                        ColmapImage& image) {
+  if (!pixel) return -1;
+  image.pixels.push_back({pixel->array() + kPixelCentre, landmark.valid() ? landmark.value + 1 : -1});
+  return static_cast<std::int32_t>(image.pixels.size()) - 1;
 }
 
-/// COLMAP ends where a track and the images contradict each other.
-void check_sightings(const fs::path& folder, const std::vector<SightedPoint>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i].shown != points[i].sightings)
-      throw InputError({(folder / kPointFile).string(), 0,
-                        fmt::format("{} sightings of landmark {}, as frames/ has", points[i].shown, i),
-                        fmt::format("{}", points[i].sightings), std::string(kMapRemedy)});
-}
-
-void write_points(const fs::path& path, const fs::path& folder, const MapInfo& info,
-                  const std::vector<SightedPoint>& points) {
-  SightingStream sightings(folder, info);
-  TextWriter file(path);
-  file.add("# POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto& [point_in_world, sum, shown, count] = points[i];
-    const double error = std::isfinite(sum) ? static_cast<double>(sum) / shown : kUnknownError;
-    file.add("{} {} {} {} 128 128 128 {:.5f}", i + 1, point_in_world.x(), point_in_world.y(),
-             point_in_world.z(), error);
-    for (std::uint32_t k = 0; k < count; ++k) {
-      const auto row = sightings.next();
-      file.add(" {} {}", row->sighting.keyframe.value + 1, row->sighting.feature);
+void Exporter::add_feature(const Observation& seen, LandmarkId landmark, const RgbImage& image,
+                           ExportedKeyframe& exported) const {
+  RecordedFeature feature;
+  feature.landmark = landmark.valid() ? landmark.value : -1;
+  const auto left = rig_.left.pixel(info_.rig, seen.u, seen.v);
+  feature.index = list_pixel(left, landmark, exported.left);
+  if (left) {
+    feature.u = static_cast<float>(left->x());
+    feature.v = static_cast<float>(left->y());
+    feature.color = color_at(image, *left);
+  }
+  if (exported.right && seen.has_disparity()) {
+    const auto right = rig_.right->pixel(info_.rig, seen.u - seen.d, seen.v);
+    feature.right_index = list_pixel(right, landmark, *exported.right);
+    if (right) {
+      feature.right_u = static_cast<float>(right->x());
+      feature.right_v = static_cast<float>(right->y());
     }
-    file.add("\n");
   }
-  file.commit();
+  exported.sightings += landmark.valid() ? 1 : 0;
+  exported.features.push_back(feature);
+}
+
+ExportedKeyframe Exporter::keyframe(std::size_t number) const {
+  const FrameFiles& files = sequence_.frames[static_cast<std::size_t>(info_.keyframes[number].frame.value)];
+  const FrameFile frame = read_frame_file(folder_, info_, {static_cast<std::int32_t>(number)});
+  const RgbImage image = read_rgb(files.color);
+  ExportedKeyframe exported;
+  exported.left = {
+      left_number(number), kLeftCamera, left_from_world(number), colmap_image_name(root_, files.color), {}};
+  if (rig_.right)
+    exported.right = {left_number(number) + 1,
+                      kRightCamera,
+                      right_from_world(number),
+                      colmap_image_name(root_, files.right),
+                      {}};
+  for (std::size_t i = 0; i < frame.landmarks.size(); ++i)
+    add_feature(frame.observed.observations[i], frame.landmarks[i], image, exported);
+  return exported;
+}
+
+/// Throws because a track and the images contradict each other, for which COLMAP would abort.
+void Exporter::fail_contradiction(std::size_t landmark, const Sighting& sighting) const {
+  throw InputError({(folder_ / kDescriptorFile).string(), 0,
+                    fmt::format("sightings of landmark {} as frames/ has them", landmark),
+                    fmt::format("feature {} of keyframe {}", sighting.feature, sighting.keyframe.value),
+                    std::string(kMapRemedy)});
+}
+
+/// Returns the distance of pixel and projection; infinite if the point is not in front of the camera.
+double distance_px(const RecordedCamera& camera, const Eigen::Vector3d& point_in_camera, float u, float v) {
+  const auto projected = camera.camera.project(point_in_camera);
+  if (!projected) return std::numeric_limits<double>::infinity();
+  return (*projected - Eigen::Vector2d(static_cast<double>(u), static_cast<double>(v))).norm();
+}
+
+ColmapPoint Exporter::point(std::size_t number, const StoredLandmark& landmark, SightingStream& sightings,
+                            RecordedFeatures& features) const {
+  ColmapPoint point{number + 1, landmark.point_in_world, {}, -1, {}};
+  std::vector<Rgb8> colors;
+  double sum_px = 0;
+  for (std::uint32_t k = 0; k < landmark.sightings; ++k) {
+    const Sighting sighting = sightings.next()->sighting;
+    const auto keyframe = static_cast<std::size_t>(sighting.keyframe.value);
+    if (!features.has(sighting)) fail_contradiction(number, sighting);
+    const RecordedFeature seen = features.at(sighting);
+    if (seen.landmark != static_cast<std::int32_t>(number)) fail_contradiction(number, sighting);
+    if (seen.index >= 0) {
+      colors.push_back(seen.color);
+      point.track.emplace_back(left_number(keyframe), seen.index);
+      sum_px += distance_px(rig_.left, left_from_world(keyframe) * landmark.point_in_world, seen.u, seen.v);
+    }
+    if (seen.right_index >= 0) {
+      point.track.emplace_back(left_number(keyframe) + 1, seen.right_index);
+      sum_px += distance_px(*rig_.right, right_from_world(keyframe) * landmark.point_in_world, seen.right_u,
+                            seen.right_v);
+    }
+  }
+  if (!colors.empty()) point.color = median_color(colors);
+  if (std::isfinite(sum_px) && !point.track.empty())
+    point.error_px = sum_px / static_cast<double>(point.track.size());
+  return point;
+}
+
+/// The folder of the model; one that was made and stays empty, as after an error, is removed again.
+class ModelFolder {
+ public:
+  explicit ModelFolder(const fs::path& path) : path_(path) {
+    std::error_code error;
+    made_ = fs::create_directories(path, error);
+    if (error) fail_writing(path, "make the folder", error.value());
+  }
+  ~ModelFolder() {
+    std::error_code ignored;  // of a folder that is not empty
+    if (made_) fs::remove(path_, ignored);
+  }
+  ModelFolder(const ModelFolder&) = delete;
+  ModelFolder& operator=(const ModelFolder&) = delete;
+
+ private:
+  const fs::path& path_;
+  bool made_ = false;
+};
+
+struct Targets {
+  ColmapWriter& writer;
+  RecordedFeatures& features;
+};
+
+/// Returns how many features show a landmark.
+std::uint64_t add_images(const Exporter& exporter, std::size_t keyframes, const Executor& executor,
+                         Progress& progress, const Targets& targets) {
+  std::uint64_t sightings = 0;
+  progress.start("exporting", static_cast<std::int64_t>(keyframes), "keyframes");
+  executor.ordered_pipeline<ExportedKeyframe>(
+      keyframes, [&](std::size_t i) { return exporter.keyframe(i); },
+      [&](std::size_t i, ExportedKeyframe&& keyframe) {
+        targets.writer.add_image(keyframe.left);
+        if (keyframe.right) targets.writer.add_image(*keyframe.right);
+        targets.features.add(keyframe.features);
+        sightings += keyframe.sightings;
+        progress.update(static_cast<std::int64_t>(i) + 1);
+        return true;
+      });
+  progress.finish();
+  return sightings;
 }
 
 }  // namespace
 
-void write_colmap_model(const fs::path& map_folder, const fs::path& model_folder) {
+void write_colmap_model(const fs::path& map_folder, const Sequence& sequence, const fs::path& model_folder,
+                        const Executor& executor, Progress& progress) {
   const fs::path folder = require_map_folder(map_folder);
   const MapInfo info = read_map_info(folder / kMapInfoFile);
   require_one_world(folder, info);
-  std::error_code error;
-  fs::create_directories(model_folder, error);
-  if (error) fail_writing(model_folder, "make the folder", error.value());
-  write_camera(model_folder / "cameras.txt", info);
-  std::vector<SightedPoint> points = read_points(folder, info);
-  write_images(model_folder / "images.txt", folder, info, points);
-  check_sightings(folder, points);
-  write_points(model_folder / "points3D.txt", folder, info, points);
+  require_frames(folder, info, sequence);
+  const Exporter exporter(folder, info, sequence);
+  const ModelFolder made(model_folder);
+  ColmapWriter writer(model_folder, exporter.counts());
+  RecordedFeatures features(model_folder);
+  exporter.add_cameras(writer);
+  const std::uint64_t sightings =
+      add_images(exporter, info.keyframes.size(), executor, progress, {writer, features});
+  if (sightings != info.sightings)
+    throw InputError({(folder / kPointFile).string(), 0,
+                      fmt::format("{} sightings of landmarks, as frames/ has", sightings),
+                      fmt::format("{}", info.sightings), std::string(kMapRemedy)});
+  LandmarkStream landmarks(folder, info);
+  SightingStream rows(folder, info);
+  for (std::size_t i = 0; const auto landmark = landmarks.next(); ++i)
+    writer.add_point(exporter.point(i, *landmark, rows, features));
+  writer.commit();
 }
 
 }  // namespace cairn

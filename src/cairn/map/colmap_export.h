@@ -3,24 +3,34 @@
 
 #include <filesystem>
 
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
+#include "cairn/sequence/sequence.h"
+
 namespace cairn {
 
-/// Writes the map in `map_folder` as a sparse model of COLMAP's (Schoenberger & Frahm 2016) in its text form:
-/// cameras.txt, images.txt and points3D.txt in `model_folder`, which is made where it does not exist. Memory
-/// grows by 40 bytes a landmark and not with what the keyframes hold.
+/// Writes the map in `map_folder`, which was made of `sequence`, as a sparse model of COLMAP's (Schoenberger
+/// & Frahm 2016), text and binary (ColmapWriter), into `model_folder`, which is made if it does not exist.
+/// Memory does not grow with the map, but for what map.json holds of each keyframe; a file of 32 bytes a
+/// feature lies in `model_folder` meanwhile. The same bytes at any number of threads.
 ///
-/// - One PINHOLE camera, the left one. COLMAP's pixels have their centres at .5: u, v, cx and cy are larger
-/// by
-///   that. Width and height are 0 where the map does not know them.
-/// - Image number i + 1 is keyframe i, with all its features in their order. It is called NNNNNN.png by the
-/// number of
-///   its frame in the sequence, or of the keyframe where the map knows that of a keyframe no more: the map
-///   does not know the names of the files. Poses are camera_from_world.
-/// - Point number i + 1 is landmark i, grey. ERROR is the mean distance of pixel and projection, pixels; -1
+/// The model is of the images on disk, and COLMAP finds them with `--image_path` colmap_image_root(sequence):
+///
+/// - Camera 1 took the left (or colour) images and camera 2 the right ones, as they were recorded: with their
+///   distortion, and before rectification.
+/// - Image 2 i + 1 is the left and image 2 i + 2 the right one of keyframe i; of RGB-D, image i + 1 the
+/// colour
+///   one. Names are colmap_image_name. Each has the keyframe's features as pixels of the image on disk, those
+///   of the right image by their disparities; a feature without one is not in the right image.
+/// - Point i + 1 is landmark i. Its colour is the median, for each channel, of what the left images have
 /// where
-///   a camera that shows it has it behind.
+///   they show it. ERROR is the mean distance of pixel and projection by the poses of the model; -1 if a
+///   camera has it behind.
 ///
-/// InputError for a map that cannot be read, or has parts without a common world.
-void write_colmap_model(const std::filesystem::path& map_folder, const std::filesystem::path& model_folder);
+/// InputError for a map that cannot be read, has parts without a common world, or is not of this sequence,
+/// for an image that cannot be read, and as colmap_image_name.
+void write_colmap_model(const std::filesystem::path& map_folder, const Sequence& sequence,
+                        const std::filesystem::path& model_folder, const Executor& executor,
+                        Progress& progress);
 
 }  // namespace cairn

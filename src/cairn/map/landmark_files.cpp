@@ -2,8 +2,10 @@
 #include "cairn/map/landmark_files.h"
 
 #include <cstring>
+#include <limits>
 
 #include "cairn/core/error.h"
+#include "cairn/map/indicators.h"
 #include "cairn/map/landmark_stream.h"
 
 namespace cairn {
@@ -18,6 +20,11 @@ std::size_t padded(std::size_t bytes) {
 
 bool is_covariance(const Eigen::Matrix3d& matrix) {
   return !matrix.hasNaN() && matrix == matrix.transpose() && matrix.diagonal().minCoeff() >= 0;
+}
+
+double largest_std(const StoredLandmark& landmark) {
+  return landmark.covariance.isZero(0) ? std::numeric_limits<double>::quiet_NaN()
+                                       : largest_std(landmark.covariance);
 }
 
 std::size_t sighting_bytes(const DescriptorKind& kind) {

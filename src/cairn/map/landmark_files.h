@@ -21,6 +21,10 @@ struct StoredLandmark {
   std::uint32_t sightings = 0;
 };
 
+/// Returns the landmark's standard deviation along the worst direction, metres; NaN if its covariance is not
+/// known.
+[[nodiscard]] double largest_std(const StoredLandmark& landmark);
+
 /// Descriptor.bin: row i shows sighting i.
 struct StoredSightings {
   std::vector<Sighting> sightings;

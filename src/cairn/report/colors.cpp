@@ -22,6 +22,14 @@ Rgb8 error_rgb(double share) {
   return {channel(0), channel(1), channel(2)};
 }
 
+double std_share(double std) {
+  return std::clamp(std::log(std::max(std, kLowStd) / kLowStd) / std::log(kHighStd / kLowStd), 0.0, 1.0);
+}
+
+Rgb8 std_rgb(double std) {
+  return std::isnan(std) ? kUnknownStd : error_rgb(std_share(std));
+}
+
 std::string error_color(double share) {
   const Rgb8 color = error_rgb(share);
   return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);

@@ -3,12 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "cairn/core/file.h"
-#include "cairn/map/indicators.h"
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
 #include "cairn/report/colors.h"
@@ -16,8 +11,6 @@
 namespace cairn {
 namespace {
 
-constexpr double kLowStd = 0.01, kHighStd = 1.0;  // metres: the ends of the colours
-constexpr Rgb8 kUnknownColor{150, 150, 150};
 constexpr std::size_t kLandmarksAtOnce = 4096;
 
 std::string format_header(std::uint32_t landmarks) {
@@ -30,15 +23,9 @@ std::string format_header(std::uint32_t landmarks) {
       kLowStd, kHighStd, landmarks);
 }
 
-Rgb8 std_color(double std) {
-  if (std::isnan(std)) return kUnknownColor;
-  return error_rgb(std::log(std::max(std, kLowStd) / kLowStd) / std::log(kHighStd / kLowStd));
-}
-
 void put_vertex(const StoredLandmark& landmark, ByteWriter& writer) {
-  const double std = landmark.covariance.isZero(0) ? std::numeric_limits<double>::quiet_NaN()
-                                                   : largest_std(landmark.covariance);
-  const Rgb8 color = std_color(std);
+  const double std = largest_std(landmark);
+  const Rgb8 color = std_rgb(std);
   for (const double coordinate : landmark.point_in_world) writer.put(coordinate);
   for (const std::uint8_t channel : {color.r, color.g, color.b}) writer.put(channel);
   writer.put(static_cast<float>(std));

@@ -72,6 +72,26 @@ void draw_circle(RgbImage& image, const Eigen::Vector2d& center, double radius, 
   }
 }
 
+void fill_circle(RgbImage& image, const Eigen::Vector2d& center, double radius, const Rgb8& color) {
+  draw_circle(image, center, radius / 2, color, radius);  // a stroke that meets itself in the middle
+}
+
+void fill_rectangle(RgbImage& image, const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+                    const Rgb8& color) {
+  const int left = std::max(0, static_cast<int>(std::lround(corner.x())));
+  const int top = std::max(0, static_cast<int>(std::lround(corner.y())));
+  const int right = std::min(image.width(), static_cast<int>(std::lround(corner.x() + size.x())));
+  const int bottom = std::min(image.height(), static_cast<int>(std::lround(corner.y() + size.y())));
+  for (int v = top; v < bottom; ++v)
+    for (int u = left; u < right; ++u) image(u, v) = color;
+}
+
+Rgb8 mix(const Rgb8& a, const Rgb8& b, double share) {
+  Rgb8 mixed = a;
+  blend(mixed, b, share);
+  return mixed;
+}
+
 Rgb8 color_of_hue(double hue) {
   const auto channel = [hue](double peak) {
     const double away = std::abs(std::remainder(hue - peak, 1.0));  // [0, 0.5]

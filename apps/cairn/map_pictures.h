@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "localize_outputs.h"
+
+namespace cairn::app {
+
+/// The name of the picture from above in the folder of a map or a run.
+constexpr const char* kMapPicture = "landmarks.png";
+
+/// Writes the picture of the map in `map_folder` to `folder`/landmarks.png.
+void write_map_picture(const std::filesystem::path& map_folder, const std::filesystem::path& folder);
+/// Writes the same with the poses that were found of images.
+void write_found_picture(const std::filesystem::path& map_folder, const std::vector<LocalizedImage>& images,
+                         const std::filesystem::path& folder);
+
+}  // namespace cairn::app

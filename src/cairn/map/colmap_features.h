@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cairn/image/image.h"
+#include "cairn/map/map.h"
+
+namespace cairn {
+
+/// A feature of a keyframe in the images on disk.
+struct RecordedFeature {
+  float u = 0, v = 0;                         ///< pixel of the left image, (0, 0) the centre of the first
+  float right_u = 0, right_v = 0;             ///< the same of the right image
+  std::int32_t index = -1, right_index = -1;  ///< its position in the images' lists; -1: in none
+  std::int32_t landmark = -1;                 ///< that it shows; -1: none
+  Rgb8 color;                                 ///< of the left image there
+};
+
+/// The features of all keyframes of a map in a file without a name, which is gone with this: memory does not
+/// grow with them. InputError if the disk fails.
+class RecordedFeatures {
+ public:
+  explicit RecordedFeatures(const std::filesystem::path& folder);
+
+  /// Appends the features of the next keyframe.
+  void add(std::span<const RecordedFeature> features);
+  /// Returns one feature of a keyframe that was added; PreconditionError for one that was not.
+  [[nodiscard]] RecordedFeature at(const Sighting& sighting);
+  /// Returns whether there is such a feature.
+  [[nodiscard]] bool has(const Sighting& sighting) const;
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { (void)std::fclose(file); }
+  };
+  std::filesystem::path path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::vector<std::uint64_t> begins_{0};  // of each keyframe, and the end; in features
+  bool is_flushed_ = true;
+};
+
+}  // namespace cairn
