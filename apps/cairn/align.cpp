@@ -33,26 +33,26 @@ struct Aligned {
   double rms_before_m = 0;
 };
 
-void declare(CLI::App& app, AlignArguments& arguments) {
+void declare(CommandLine& app, AlignArguments& arguments) {
   app.add_option(
          "EST", arguments.estimate,
          "trajectory to move (TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md), or a run's folder; "
          "alone: a file of pairs, 16 values a line: a "
          "pose of the estimate, then one of the reference")
-      ->required();
+      .required();
   app.add_option("REF", arguments.reference,
                  "trajectory to move it onto: a file, or a sequence's folder that carries it");
   app.add_flag("--scale", arguments.with_scale, "find the scale as well: for a monocular estimate");
   app.add_option("--max-gap", arguments.max_gap_s, "between the stamps of a pair, seconds")
-      ->check(number_in(0, 10))
-      ->type_name("S")
-      ->capture_default_str();
+      .check(number_in(0, 10))
+      .type_name("S")
+      .show_default();
   add_stamp_offset(app, "--offset", "EST", arguments.offset);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
-      ->type_name("FILE|NAME");
+      .type_name("FILE|NAME");
   app.add_option("--plot", arguments.plot, "picture of both trajectories before and after")
-      ->type_name("OUT.svg");
+      .type_name("OUT.svg");
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(
       "Example: cairn align run/ recording/ --plot alignment.svg\n"
@@ -136,9 +136,9 @@ std::string draw_alignment(const Aligned& aligned) {
 
 int run_align(int argc, char** argv) {
   AlignArguments arguments;
-  CLI::App app("The rotation, translation and scale that move a trajectory onto another.", "align");
+  CommandLine app("The rotation, translation and scale that move a trajectory onto another.", "align");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   Aligned aligned{arguments, read_pairs(arguments), {}, 0};
   aligned.alignment = align_pairs(aligned.pairs, arguments.with_scale);
   aligned.rms_before_m = rms_distance(aligned.pairs);

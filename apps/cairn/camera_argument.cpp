@@ -28,11 +28,11 @@ Calibration pinhole_of(const std::string& text) {
 
 }  // namespace
 
-CLI::Option* add_camera_option(CLI::App& app, std::string& camera) {
+Option add_camera_option(CommandLine& app, std::string& camera) {
   return app
       .add_option("--camera", camera,
                   "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
-      ->type_name("FILE|NAME|fx,fy,cx,cy");
+      .type_name("FILE|NAME|fx,fy,cx,cy");
 }
 
 Calibration read_camera_argument(const std::string& camera) {

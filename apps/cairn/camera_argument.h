@@ -10,7 +10,7 @@
 namespace cairn::app {
 
 /// --camera FILE|NAME|fx,fy,cx,cy for commands that work on single images or lists of points.
-CLI::Option* add_camera_option(CLI::App& app, std::string& camera);
+Option add_camera_option(CommandLine& app, std::string& camera);
 
 /// What that option names; of four numbers a pinhole camera without a size. InputError for anything else.
 [[nodiscard]] Calibration read_camera_argument(const std::string& camera);

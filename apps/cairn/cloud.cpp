@@ -21,18 +21,18 @@ struct CloudArguments {
   CloudOptions options;
 };
 
-void declare(CLI::App& app, CloudArguments& arguments) {
-  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence")->required();
-  app.add_option("-o", arguments.output, "the cloud, .ply or .pcd")->type_name("FILE")->required();
+void declare(CommandLine& app, CloudArguments& arguments) {
+  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence").required();
+  app.add_option("-o", arguments.output, "the cloud, .ply or .pcd").type_name("FILE").required();
   add_pose_options(app, arguments.poses);
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
-      ->type_name("M")
-      ->capture_default_str();
+      .type_name("M")
+      .show_default();
   app.add_option("--max-depth", arguments.options.max_depth, "metres; deeper readings are too noisy")
-      ->type_name("M")
-      ->capture_default_str();
+      .type_name("M")
+      .show_default();
   app.add_option("--draw", arguments.picture, "a picture of the cloud, obliquely from above")
-      ->type_name("PNG");
+      .type_name("PNG");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.threads = true});
   app.footer("Example: cairn cloud demo/room --poses run/trajectory.txt -o room.ply");
@@ -102,9 +102,9 @@ Result build_cloud(const CloudArguments& arguments) {
 
 int run_cloud(int argc, char** argv) {
   CloudArguments arguments;
-  CLI::App app("One coloured cloud from all frames of a sequence whose poses are known.", "cloud");
+  CommandLine app("One coloured cloud from all frames of a sequence whose poses are known.", "cloud");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   arguments.options.validate();
   require_cloud_file(arguments.output);
   const AtomicFile probe(arguments.output);  // a path that cannot be written is known before the work

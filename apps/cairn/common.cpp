@@ -12,8 +12,6 @@
 #include <cstdio>
 #include <thread>
 
-#include "cairn/core/text.h"
-
 namespace cairn::app {
 namespace {
 
@@ -101,22 +99,20 @@ int CommonOptions::thread_count() const {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-void add_common_options(CLI::App& app, CommonOptions& options, const Offers& offers) {
+void add_common_options(CommandLine& app, CommonOptions& options, const Offers& offers) {
   if (offers.config) {
-    app.add_option("--config", options.config, "YAML or key=value file with settings")->type_name("FILE");
+    app.add_option("--config", options.config, "YAML or key=value file with settings").type_name("FILE");
     app.add_option("--set", options.settings, "one setting, overrides --config; may be repeated")
-        ->type_name("KEY=VALUE");
+        .type_name("KEY=VALUE");
   }
   if (offers.threads) {
     app.add_option("--threads", options.threads,
                    "threads; the result does not depend on it (default: all cores)")
-        ->check(CLI::Range(1, 1024))
-        ->type_name("N");
+        .check(number_in(1, 1024))
+        .type_name("N");
   }
   if (offers.seed)
-    app.add_option("--seed", options.seed, "seed of everything random")
-        ->capture_default_str()
-        ->type_name("N");
+    app.add_option("--seed", options.seed, "seed of everything random").show_default().type_name("N");
   if (offers.json) app.add_flag("--json", options.json, "one JSON object on stdout, nothing else");
   if (offers.quiet) app.add_flag("--quiet", options.quiet, "no progress");
 }
@@ -129,80 +125,13 @@ SequenceOptions SequenceArguments::options() const {
   return result;
 }
 
-void add_sequence_options(CLI::App& app, SequenceArguments& arguments) {
+void add_sequence_options(CommandLine& app, SequenceArguments& arguments) {
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3 (default: the sequence's own)")
-      ->type_name("FILE|NAME");
+      .type_name("FILE|NAME");
   app.add_option("--frames", arguments.frames, "only these frames, by position, end excluded")
-      ->type_name("A:B[:S]");
-  app.add_option("--without", arguments.without, "all but these frames")->type_name("A:B[:S]");
-}
-
-namespace {
-
-/// Every option of a command and of its subcommands, as they are written.
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  for (const CLI::App* command : app.get_subcommands({}))
-    for (std::string& name : option_names(*command)) names.push_back(std::move(name));
-  return names;
-}
-
-/// The first argument that looks like an option and is none; empty where there is no such.
-std::string unknown_option(const CLI::App& app, int argc, char** argv) {
-  const std::vector<std::string> names = option_names(app);
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    std::string name = argument.substr(0, argument.find('='));
-    if (name.rfind("--", 0) == 0 && name.size() > 2 &&
-        std::find(names.begin(), names.end(), name) == names.end())
-      return name;
-  }
-  return "";
-}
-
-/// What CLI11 says; where an option is misspelt, which it may be; where one of several subcommands is wanted,
-/// which.
-std::string complaint(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  if (const std::string name = unknown_option(app, argc, argv); !name.empty()) {
-    const std::string nearest = nearest_name(name, option_names(app));
-    const bool alike = edit_distance(name, nearest) <= name.size() / 3;
-    return fmt::format("there is no option {}.{}", name,
-                       alike ? fmt::format(" Did you mean {}?", nearest) : "");
-  }
-  if (app.get_require_subcommand_min() == 0 || !app.get_subcommands().empty()) return error.what();
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  return fmt::format("expected one of {}, found {}", fmt::join(names, ", "),
-                     argc > 1 ? fmt::format("'{}'", argv[1]) : "nothing");
-}
-
-}  // namespace
-
-CLI::Validator number_in(double low, double high) {
-  const auto complaint = [low, high](const std::string& text) -> std::string {
-    double value = 0;
-    const bool is_number = CLI::detail::lexical_cast(text, value);
-    if (is_number && value >= low && value <= high) return "";
-    return fmt::format("'{}' is no number from {:g} to {:g}", text, low, high);
-  };
-  return CLI::Validator(complaint, "");
-}
-
-std::optional<int> parse(CLI::App& app, int argc, char** argv) {
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help("cairn"));
-    return 0;
-  } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "cairn {}: {}\n  'cairn {} --help' shows the options and an example.\n",
-               app.get_name(), complaint(app, error, argc, argv), app.get_name());
-    return 2;
-  }
-  return std::nullopt;
+      .type_name("A:B[:S]");
+  app.add_option("--without", arguments.without, "all but these frames").type_name("A:B[:S]");
 }
 
 std::unique_ptr<Progress> make_progress(const CommonOptions& options) {

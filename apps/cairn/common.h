@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "cairn/core/progress.h"
 #include "cairn/sequence/sequence.h"
+#include "command_line.h"
 
 namespace cairn::app {
 
@@ -30,19 +30,13 @@ struct Offers {
   bool config = false, threads = false, seed = false, json = true, quiet = true;
 };
 
-void add_common_options(CLI::App& app, CommonOptions& options, const Offers& offers);
+void add_common_options(CommandLine& app, CommonOptions& options, const Offers& offers);
 /// --camera, --frames, --without for whatever reads a sequence.
 struct SequenceArguments {
   std::string folder, camera, frames, without;
   [[nodiscard]] SequenceOptions options() const;
 };
-void add_sequence_options(CLI::App& app, SequenceArguments& arguments);
-
-/// Accepts numbers from `low` to `high`, and not NaN, which CLI::Range lets through.
-[[nodiscard]] CLI::Validator number_in(double low, double high);
-
-/// Parses; an exit code when the program is to end here (0 after --help, 2 after wrong usage).
-[[nodiscard]] std::optional<int> parse(CLI::App& app, int argc, char** argv);
+void add_sequence_options(CommandLine& app, SequenceArguments& arguments);
 
 /// A bar on stderr with rate and time left on a terminal, a line every few seconds elsewhere, nothing with
 /// --quiet. Installs the Ctrl-C handler: the first asks to stop, a second ends the program.

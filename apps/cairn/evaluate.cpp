@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <memory>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -20,71 +19,59 @@ const std::map<std::string, AlignmentMode> kAlignments = {
     {"se3", AlignmentMode::se3}, {"sim3", AlignmentMode::sim3}, {"none", AlignmentMode::none}};
 constexpr RpeUnit kUnits[] = {RpeUnit::frames, RpeUnit::metres, RpeUnit::seconds};
 
-/// CLI11 gives all names to a first positional of any number, so that REF is split off here.
-class UsageOfTrajectories : public CLI::Formatter {
-  std::string make_option_usage(const CLI::Option*) const override { return "EST... REF"; }
-};
-
-void declare_trajectories(CLI::App& app, EvaluateArguments& arguments) {
+void declare_trajectories(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option(
          "EST", arguments.estimates,
          "EST: trajectory files (TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md), or folders of "
          "runs; REF, the last: the truth, such a file, or a sequence's folder that carries it")
-      ->required()
-      ->option_text("... REF");
-  app.formatter(std::make_shared<UsageOfTrajectories>());
-  app.callback([&arguments] {
-    if (arguments.estimates.size() < 2) throw CLI::RequiredError("REF");
-    arguments.reference = arguments.estimates.back();
-    arguments.estimates.pop_back();
-  });
+      .required()
+      .help_text("... REF");
+  app.split_last(arguments.estimates, arguments.reference, "REF", "EST... REF");
 }
 
-void declare_within(CLI::App& app, EvaluateArguments& arguments) {
+void declare_within(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option("--within", arguments.within,
                  "how many poses are off by at most so many metres and degrees; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("M,DEG");
+      .type_name("M,DEG");
   app.add_option("--queries", arguments.queries,
                  "images that were to be localised: --within is given as a share of them, too")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
-      ->type_name("N");
+      .check(number_in(1, 1e9))
+      .type_name("N");
 }
 
-void declare_rpe(CLI::App& app, EvaluateArguments& arguments) {
+void declare_rpe(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option("--rpe-delta", arguments.rpe_deltas,
                  "lengths of the RPE's intervals in --rpe-unit; in the other units they stay at 1")
-      ->check(number_in(1e-6, 1e6))
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("N[,N...]")
-      ->capture_default_str();
+      .check(number_in(1e-6, 1e6))
+      .delimiter(',')
+      .type_name("N[,N...]")
+      .show_default();
   app.add_option("--rpe-unit", arguments.rpe_unit, "unit of --rpe-delta: frames, metres (of path), seconds")
-      ->check(CLI::IsMember({"frames", "metres", "seconds"}))
-      ->capture_default_str();
+      .check(one_of({"frames", "metres", "seconds"}))
+      .show_default();
   app.add_flag("--rpe-all-pairs", arguments.rpe_all_pairs,
                "an interval from each pose, not from where the last one ended");
 }
 
-void declare(CLI::App& app, EvaluateArguments& arguments) {
+void declare(CommandLine& app, EvaluateArguments& arguments) {
   declare_trajectories(app, arguments);
   app.add_option("--align", arguments.align,
                  "how EST is moved onto REF: se3 turns and moves, sim3 scales as well, none")
-      ->check(CLI::IsMember({"se3", "sim3", "none"}))
-      ->capture_default_str();
+      .check(one_of({"se3", "sim3", "none"}))
+      .show_default();
   app.add_option("--max-gap", arguments.options.max_gap_s, "between the stamps of a pair, seconds")
-      ->check(number_in(0, 10))
-      ->type_name("S")
-      ->capture_default_str();
+      .check(number_in(0, 10))
+      .type_name("S")
+      .show_default();
   add_stamp_offset(app, "--offset", "EST", arguments.offset);
   declare_rpe(app, arguments);
   declare_within(app, arguments);
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
-      ->type_name("FILE|NAME");
+      .type_name("FILE|NAME");
   app.add_option("--plot", arguments.plot,
                  "picture of the trajectories from three sides and of errors over time")
-      ->type_name("OUT.svg");
+      .type_name("OUT.svg");
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(
       "Examples: cairn evaluate run/ recording/ --plot trajectory.svg\n"
@@ -155,9 +142,9 @@ Evaluations evaluate(const EvaluateArguments& arguments, const ComparedTrajector
 
 int run_evaluate(int argc, char** argv) {
   EvaluateArguments arguments;
-  CLI::App app("How far trajectories are from the truth: ATE, RPE and drift.", "evaluate");
+  CommandLine app("How far trajectories are from the truth: ATE, RPE and drift.", "evaluate");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   check(arguments);
   const ComparedTrajectories compared =
       read_compared({arguments.estimates, arguments.reference, arguments.camera, arguments.offset});

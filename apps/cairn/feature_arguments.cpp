@@ -9,27 +9,27 @@
 namespace cairn::app {
 
 std::unique_ptr<Extractor> FeatureArguments::extractor() const {
-  const bool root = CLI::detail::to_lower(method) == "rootsift";
+  const bool root = method == "ROOTSIFT";
   return make_extractor({root ? "SIFT" : method, method, count});
 }
 
-void add_feature_options(CLI::App& app, FeatureArguments& arguments) {
+void add_feature_options(CommandLine& app, FeatureArguments& arguments) {
   app.add_option("--method", arguments.method, "ORB, SIFT and ROOTSIFT are cairn's own, the others OpenCV's")
-      ->check(CLI::IsMember(descriptor_names(), CLI::ignore_case))
-      ->type_name("NAME")
-      ->capture_default_str();
+      .check(one_of_any_case(descriptor_names()))
+      .type_name("NAME")
+      .show_default();
   app.add_option("--count", arguments.count, "at most so many features of an image")
-      ->check(CLI::Range(1, 10'000'000))
-      ->type_name("N")
-      ->capture_default_str();
+      .check(number_in(1, 10'000'000))
+      .type_name("N")
+      .show_default();
 }
 
-void add_repeat_option(CLI::App& app, FeatureArguments& arguments) {
+void add_repeat_option(CommandLine& app, FeatureArguments& arguments) {
   app.add_option("--repeat", arguments.repeat,
                  "the time is the median of so many runs, decoding not included")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("R")
-      ->capture_default_str();
+      .check(number_in(1, 1'000'000))
+      .type_name("R")
+      .show_default();
 }
 
 TimedFeatures extract_timed(const std::string& path, const FeatureArguments& arguments,

@@ -21,9 +21,9 @@ struct FeatureArguments {
   [[nodiscard]] std::unique_ptr<Extractor> extractor() const;
 };
 
-void add_feature_options(CLI::App& app, FeatureArguments& arguments);
+void add_feature_options(CommandLine& app, FeatureArguments& arguments);
 /// For the commands that print times.
-void add_repeat_option(CLI::App& app, FeatureArguments& arguments);
+void add_repeat_option(CommandLine& app, FeatureArguments& arguments);
 
 /// Features of one image and how long they took.
 struct TimedFeatures {

@@ -19,14 +19,14 @@ struct FeaturesArguments : FeatureArguments {
   std::string draw, output;
 };
 
-void declare(CLI::App& app, FeaturesArguments& arguments) {
-  app.add_option("IMG", arguments.images, "images: PNG, JPEG, binary PGM or PPM")->required();
+void declare(CommandLine& app, FeaturesArguments& arguments) {
+  app.add_option("IMG", arguments.images, "images: PNG, JPEG, binary PGM or PPM").required();
   add_feature_options(app, arguments);
   add_repeat_option(app, arguments);
   app.add_option("--draw", arguments.draw, "picture of one image's keypoints with their scale and angle")
-      ->type_name("OUT.png");
+      .type_name("OUT.png");
   app.add_option("--output", arguments.output, "one image's keypoints: u v size angle_deg response")
-      ->type_name("OUT.csv");
+      .type_name("OUT.csv");
   add_common_options(app, arguments.common, {.threads = true});
   app.footer("Example: cairn features left.png --method sift --count 2000 --draw keypoints.png");
 }
@@ -65,9 +65,9 @@ std::string to_text(const TimedFeatures& timed) {
 
 int run_features(int argc, char** argv) {
   FeaturesArguments arguments;
-  CLI::App app("Finds and describes features of images, and says how many and how fast.", "features");
+  CommandLine app("Finds and describes features of images, and says how many and how fast.", "features");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   check(arguments);
   std::optional<AtomicFile> output;  // before the work: a path that cannot be written is known at once
   if (!arguments.output.empty()) output.emplace(arguments.output);

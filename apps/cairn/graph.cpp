@@ -23,30 +23,30 @@ struct GraphArguments {
   PoseGraphOptions options;
 };
 
-void declare(CLI::App& app, GraphArguments& arguments) {
-  app.add_option("input", arguments.input, "3D pose graph, g2o text format")->type_name("IN.g2o")->required();
-  app.add_option("-o", arguments.output, "the optimised graph")->type_name("OUT.g2o")->required();
+void declare(CommandLine& app, GraphArguments& arguments) {
+  app.add_option("input", arguments.input, "3D pose graph, g2o text format").type_name("IN.g2o").required();
+  app.add_option("-o", arguments.output, "the optimised graph").type_name("OUT.g2o").required();
   app.add_option(
          "--robust", arguments.robust,
          "what wrong loop closures may cost: none, huber, cauchy or geman-mcclure, from weak to strong; "
          "for all edges but those from each vertex to the next")
-      ->check(CLI::IsMember(names_of(kKernels)))
-      ->type_name("KERNEL")
-      ->capture_default_str();
+      .check(one_of(names_of(kKernels)))
+      .type_name("KERNEL")
+      .show_default();
   app.add_option("--robust-scale", arguments.options.robust_scale,
                  "standard deviations of an edge at which --robust sets in")
-      ->check(number_in(1e-9, 1e9))
-      ->type_name("S")
-      ->capture_default_str();
+      .check(number_in(1e-9, 1e9))
+      .type_name("S")
+      .show_default();
   app.add_option("--start", arguments.start,
                  "start at the poses given, at a chordal relaxation of the edges, or at the best of both")
-      ->check(CLI::IsMember(names_of(kStarts)))
-      ->type_name("START")
-      ->capture_default_str();
+      .check(one_of(names_of(kStarts)))
+      .type_name("START")
+      .show_default();
   app.add_option("--iterations", arguments.options.max_iterations, "at most so many steps")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N")
-      ->capture_default_str();
+      .check(number_in(1, 1'000'000))
+      .type_name("N")
+      .show_default();
   add_common_options(app, arguments.common, {});
   app.footer(
       "Example: cairn graph sphere2500.g2o -o optimised.g2o\nExit code 1: it did not converge; the best "
@@ -88,9 +88,9 @@ void print_report(const GraphArguments& arguments, const PoseGraph& graph, const
 
 int run_graph(int argc, char** argv) {
   GraphArguments arguments;
-  CLI::App app("Moves the poses of a graph to where its edges' measurements fit best.", "graph");
+  CommandLine app("Moves the poses of a graph to where its edges' measurements fit best.", "graph");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   arguments.options.kernel = kKernels.at(arguments.robust);
   arguments.options.start = kStarts.at(arguments.start);
 

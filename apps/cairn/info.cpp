@@ -145,7 +145,7 @@ void print_json(const Sequence& sequence) {
 }
 
 /// What chooses from a sequence would do nothing for a map.
-void require_no_choice(const CLI::App& app) {
+void require_no_choice(const CommandLine& app) {
   for (const char* option : {"--camera", "--frames", "--without"}) {
     if (app.count(option) > 0)
       throw InputError({option, 0, "a sequence to apply it to", "a map", "Leave the option out."});
@@ -155,14 +155,15 @@ void require_no_choice(const CLI::App& app) {
 }  // namespace
 
 int run_info(int argc, char** argv) {
-  CLI::App app("What a sequence or a map is: format, frames, cameras, truth; keyframes, landmarks.", "info");
+  CommandLine app("What a sequence or a map is: format, frames, cameras, truth; keyframes, landmarks.",
+                  "info");
   CommonOptions common;
   SequenceArguments arguments;
-  app.add_option("SEQ", arguments.folder, "folder with a sequence, a map, or a run with its map")->required();
+  app.add_option("SEQ", arguments.folder, "folder with a sequence, a map, or a run with its map").required();
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.quiet = false});
   app.footer("Example: cairn info demo/room");
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   if (const auto map = find_map_folder(arguments.folder)) {
     require_no_choice(app);
     print_map_info(*map, common.json);

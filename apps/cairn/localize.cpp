@@ -30,16 +30,16 @@ struct LocalizeArguments {
   bool mono = false, any_camera = false, draw = false;
 };
 
-void declare(CLI::App& app, LocalizeArguments& arguments) {
-  app.add_option("MAP", arguments.map, "map folder, or a run with one in its map/")->required();
-  app.add_option("SEQ", arguments.sequence.folder, "sequence, folder of images or one image")->required();
+void declare(CommandLine& app, LocalizeArguments& arguments) {
+  app.add_option("MAP", arguments.map, "map folder, or a run with one in its map/").required();
+  app.add_option("SEQ", arguments.sequence.folder, "sequence, folder of images or one image").required();
   app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
-      ->type_name("RUN")
-      ->required();
+      .type_name("RUN")
+      .required();
   app.add_option("--prior", arguments.prior.path,
                  "where the images are thought to be: a trajectory in the map's world, or 'last': where the "
                  "image before was found, of a sequence with times")
-      ->type_name("FILE|last");
+      .type_name("FILE|last");
   add_pose_time_options(app, arguments.prior);
   app.add_flag("--mono", arguments.mono, "without depth and right images");
   app.add_flag("--any-camera", arguments.any_camera,
@@ -179,10 +179,10 @@ void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executo
 
 int run_localize(int argc, char** argv) {
   LocalizeArguments arguments;
-  CLI::App app("Finds images in a map: their poses, how sure they are, and whether to trust them.",
-               "localize");
+  CommandLine app("Finds images in a map: their poses, how sure they are, and whether to trust them.",
+                  "localize");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
 
   Stopwatch watch;
   LocalizeSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}, {}, {}};

@@ -26,14 +26,14 @@ struct MapArguments {
   std::string output, exported;
 };
 
-void declare(CLI::App& app, MapArguments& arguments) {
-  app.add_option("SEQ", arguments.sequence.folder, "folder with a stereo or RGB-D sequence")->required();
+void declare(CommandLine& app, MapArguments& arguments) {
+  app.add_option("SEQ", arguments.sequence.folder, "folder with a stereo or RGB-D sequence").required();
   app.add_option("-o,--output", arguments.output, "map folder; one that cairn wrote is replaced")
-      ->type_name("MAP")
-      ->required();
+      .type_name("MAP")
+      .required();
   app.add_option("--export", arguments.exported, "also a sparse model for another program, in MAP/colmap")
-      ->type_name("FORMAT")
-      ->check(CLI::IsMember({"colmap"}, CLI::ignore_case));
+      .type_name("FORMAT")
+      .check(one_of_any_case({"colmap"}));
   add_pose_options(app, arguments.poses);
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true});
@@ -80,13 +80,13 @@ int report_quality(const SurveyResult& result, const SurveyOptions& options) {
 
 int run_map(int argc, char** argv) {
   MapArguments arguments;
-  CLI::App app(
+  CommandLine app(
       "Mapping with known poses: a stereo or RGB-D sequence and its trajectory become a map of landmarks "
       "with "
       "covariances and descriptors.",
       "map");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
 
   const Stopwatch watch;
   MapParameters parameters = gather_parameters(arguments);

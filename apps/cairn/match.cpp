@@ -20,26 +20,25 @@ struct MatchArguments : FeatureArguments {
   bool one_sided = false;
 };
 
-void declare(CLI::App& app, MatchArguments& arguments) {
-  app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM")->required();
-  app.add_option("B", arguments.second, "image to find A's features in")->required();
+void declare(CommandLine& app, MatchArguments& arguments) {
+  app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM").required();
+  app.add_option("B", arguments.second, "image to find A's features in").required();
   add_feature_options(app, arguments);
   add_repeat_option(app, arguments);
   app.add_option(
          "--ratio", arguments.options.max_ratio,
          "believe a match only if it is nearer than this share of the second nearest; 0: no such test")
-      ->check(number_in(0, 1))
-      ->type_name("X")
-      ->capture_default_str();
+      .check(number_in(0, 1))
+      .type_name("X")
+      .show_default();
   app.add_option("--max-distance", arguments.options.max_distance,
                  "bits (ORB) or Euclidean distance of bytes (SIFT) that a match may have (default: any)")
-      ->check(number_in(0, 1e6))
-      ->type_name("D")
-      ->default_str("");
+      .check(number_in(0, 1e6))
+      .type_name("D");
   app.add_flag("--one-sided", arguments.one_sided, "A's feature need not be the nearest to B's");
-  app.add_option("--output", arguments.output, "the matches: u1 v1 u2 v2 distance")->type_name("OUT.csv");
+  app.add_option("--output", arguments.output, "the matches: u1 v1 u2 v2 distance").type_name("OUT.csv");
   app.add_option("--draw", arguments.draw, "picture of both images with a line for each match")
-      ->type_name("OUT.png");
+      .type_name("OUT.png");
   add_common_options(app, arguments.common, {.threads = true, .quiet = false});
   app.footer("Example: cairn match a.png b.png --method sift --ratio 0.8 --draw matches.png");
 }
@@ -77,9 +76,9 @@ void print_result(const MatchArguments& arguments, const TimedFeatures& a, const
 
 int run_match(int argc, char** argv) {
   MatchArguments arguments;
-  CLI::App app("Finds the features of one image in another.", "match");
+  CommandLine app("Finds the features of one image in another.", "match");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   arguments.options.mutual = !arguments.one_sided;
   std::optional<AtomicFile> output;  // before the work: a path that cannot be written is known at once
   if (!arguments.output.empty()) output.emplace(arguments.output);

@@ -21,22 +21,22 @@ struct OctreeArguments {
   OccupancyOptions options;
 };
 
-void declare(CLI::App& app, OctreeArguments& arguments) {
+void declare(CommandLine& app, OctreeArguments& arguments) {
   app.add_option("INPUT", arguments.sequence.folder,
                  "folder with an RGB-D sequence, or a cloud, .ply or .pcd (occupied space only)")
-      ->required();
+      .required();
   app.add_option("-o", arguments.output,
                  ".bt: occupied and free; .ot: probabilities, and colours where there are any")
-      ->type_name("FILE")
-      ->required();
+      .type_name("FILE")
+      .required();
   add_pose_options(app, arguments.poses);
   app.add_option("--resolution", arguments.options.resolution, "metres; size of the smallest cubes")
-      ->type_name("M")
-      ->capture_default_str();
+      .type_name("M")
+      .show_default();
   app.add_option("--max-range", arguments.options.max_range,
                  "metres from the camera; farther points only free the way up to there")
-      ->type_name("M")
-      ->capture_default_str();
+      .type_name("M")
+      .show_default();
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.threads = true});
   app.footer(
@@ -125,9 +125,9 @@ void require_no_sequence_options(const OctreeArguments& arguments) {
 
 int run_octree(int argc, char** argv) {
   OctreeArguments arguments;
-  CLI::App app("Occupied and free space as an OctoMap file.", "octree");
+  CommandLine app("Occupied and free space as an OctoMap file.", "octree");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   arguments.options.validate();
   (void)octree_contents(arguments.output, true);  // a wrong extension is known before the work
   if (is_cloud_file(arguments.sequence.folder)) require_no_sequence_options(arguments);

@@ -29,47 +29,47 @@ struct PnpArguments {
   RansacOptions ransac;
 };
 
-void declare_fit(CLI::App& app, PnpArguments& arguments) {
+void declare_fit(CommandLine& app, PnpArguments& arguments) {
   app.add_option("--method", arguments.method, "Levenberg-Marquardt or plain Gauss-Newton")
-      ->check(CLI::IsMember(names_of(kMethods)))
-      ->type_name("METHOD")
-      ->capture_default_str();
+      .check(one_of(names_of(kMethods)))
+      .type_name("METHOD")
+      .show_default();
   app.add_option("--kernel", arguments.kernel,
                  "what large residuals cost: none, huber, cauchy or geman-mcclure, from weak to strong")
-      ->check(CLI::IsMember(names_of(kKernels)))
-      ->type_name("KERNEL")
-      ->capture_default_str();
+      .check(one_of(names_of(kKernels)))
+      .type_name("KERNEL")
+      .show_default();
   app.add_option("--kernel-scale", arguments.fit.kernel_scale,
                  "standard deviations at which --kernel sets in")
-      ->check(number_in(1e-9, 1e9))
-      ->type_name("S")
-      ->capture_default_str();
+      .check(number_in(1e-9, 1e9))
+      .type_name("S")
+      .show_default();
   app.add_option("--iterations", arguments.fit.max_iterations, "at most so many steps")
-      ->check(CLI::Range(1, 1'000'000))
-      ->type_name("N")
-      ->capture_default_str();
+      .check(number_in(1, 1'000'000))
+      .type_name("N")
+      .show_default();
   app.add_flag("--trace", arguments.trace, "print the cost after each step");
 }
 
-void declare(CLI::App& app, PnpArguments& arguments) {
-  app.add_option("POINTS", arguments.points, "points in the world, lines `x y z`, metres")->required();
-  app.add_option("PIXELS", arguments.pixels, "where the camera sees them, lines `u v`")->required();
-  add_camera_option(app, arguments.camera)->required();
+void declare(CommandLine& app, PnpArguments& arguments) {
+  app.add_option("POINTS", arguments.points, "points in the world, lines `x y z`, metres").required();
+  app.add_option("PIXELS", arguments.pixels, "where the camera sees them, lines `u v`").required();
+  add_camera_option(app, arguments.camera).required();
   app.add_option(
          "--start", arguments.start,
          "ransac: P3P in RANSAC, then least squares over its inliers; identity: least squares over all "
          "points from the identity")
-      ->check(CLI::IsMember({"ransac", "identity"}))
-      ->type_name("START")
-      ->capture_default_str();
+      .check(one_of({"ransac", "identity"}))
+      .type_name("START")
+      .show_default();
   app.add_option("--samples", arguments.ransac.max_iterations, "of RANSAC, at most")
-      ->check(CLI::Range(1, 10'000'000))
-      ->type_name("N")
-      ->capture_default_str();
+      .check(number_in(1, 10'000'000))
+      .type_name("N")
+      .show_default();
   app.add_option("--sigma", arguments.sigma_px, "standard deviation of a pixel's column and row, pixels")
-      ->check(number_in(1e-6, 1e6))
-      ->type_name("PX")
-      ->capture_default_str();
+      .check(number_in(1e-6, 1e6))
+      .type_name("PX")
+      .show_default();
   declare_fit(app, arguments);
   add_common_options(app, arguments.common, {.seed = true, .quiet = false});
   app.footer(
@@ -268,9 +268,9 @@ nlohmann::ordered_json to_json(const PnpReport& report) {
 
 int run_pnp(int argc, char** argv) {
   PnpArguments arguments;
-  CLI::App app("Pose of a camera from points and the pixels that show them.", "pnp");
+  CommandLine app("Pose of a camera from points and the pixels that show them.", "pnp");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   arguments.fit.kernel = kKernels.at(arguments.kernel);
   arguments.fit.method = kMethods.at(arguments.method);
   arguments.ransac.seed = arguments.common.seed;

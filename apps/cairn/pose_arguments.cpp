@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_arguments.h"
 
-#include <fmt/format.h>
-
 #include "cairn/core/text.h"
 #include "common.h"
 
@@ -19,17 +17,13 @@ double StampOffset::seconds() const {
   return parse_number(text, value) ? value : 0;
 }
 
-void add_stamp_offset(CLI::App& app, const std::string& name, const std::string& what, StampOffset& offset) {
-  const CLI::Validator number = number_in(-kLongest, kLongest);
-  const auto complaint = [number](std::string& text) -> std::string {
-    if (text == "start" || number(text).empty()) return "";
-    return fmt::format("'{}' is no number from {:g} to {:g}, nor 'start'", text, -kLongest, kLongest);
-  };
+void add_stamp_offset(CommandLine& app, const std::string& name, const std::string& what,
+                      StampOffset& offset) {
   app.add_option(name, offset.text,
                  "seconds to add to the stamps of " + what + "; start: so that the first stamps agree")
-      ->type_name("S|start")
-      ->check(CLI::Validator(complaint, ""))
-      ->capture_default_str();
+      .type_name("S|start")
+      .check(number_in_or(-kLongest, kLongest, "start"))
+      .show_default();
 }
 
 GivenPosesOptions PoseArguments::options() const {
@@ -41,21 +35,21 @@ GivenPosesOptions PoseArguments::options() const {
   return options;
 }
 
-void add_pose_options(CLI::App& app, PoseArguments& arguments) {
+void add_pose_options(CommandLine& app, PoseArguments& arguments) {
   app.add_option(
          "--poses", arguments.path,
          "poses: TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md (default: the sequence's own)")
-      ->type_name("FILE");
+      .type_name("FILE");
   add_pose_time_options(app, arguments);
 }
 
-void add_pose_time_options(CLI::App& app, PoseArguments& arguments) {
+void add_pose_time_options(CommandLine& app, PoseArguments& arguments) {
   add_stamp_offset(app, "--pose-offset", "the poses", arguments.time_offset);
   app.add_option("--pose-gap", arguments.max_gap_s,
                  "seconds; between two poses further apart a frame gets none")
-      ->type_name("S")
-      ->check(number_in(0, kLongest))
-      ->capture_default_str();
+      .type_name("S")
+      .check(number_in(0, kLongest))
+      .show_default();
 }
 
 std::vector<std::optional<WorldFromCamera>> read_reported_poses(const Sequence& sequence,

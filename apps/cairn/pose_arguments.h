@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "cairn/sequence/given_poses.h"
+#include "command_line.h"
 
 namespace cairn::app {
 
@@ -15,7 +15,8 @@ struct StampOffset {
   [[nodiscard]] double seconds() const;  ///< 0 for "start"
 };
 /// An option that takes a StampOffset; `what` says whose stamps it is added to.
-void add_stamp_offset(CLI::App& app, const std::string& name, const std::string& what, StampOffset& offset);
+void add_stamp_offset(CommandLine& app, const std::string& name, const std::string& what,
+                      StampOffset& offset);
 
 /// --poses, --pose-offset, --pose-gap for whatever takes poses that are known.
 struct PoseArguments {
@@ -26,9 +27,9 @@ struct PoseArguments {
   [[nodiscard]] GivenPosesOptions options() const;
 };
 
-void add_pose_options(CLI::App& app, PoseArguments& arguments);
+void add_pose_options(CommandLine& app, PoseArguments& arguments);
 /// --pose-offset and --pose-gap alone.
-void add_pose_time_options(CLI::App& app, PoseArguments& arguments);
+void add_pose_time_options(CommandLine& app, PoseArguments& arguments);
 
 /// The poses without what is known of them; prints their warnings.
 [[nodiscard]] std::vector<std::optional<WorldFromCamera>> read_reported_poses(const Sequence& sequence,

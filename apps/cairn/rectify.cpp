@@ -29,18 +29,18 @@ void print_report(const RectifiedReport& report, const std::string& folder, bool
 }  // namespace
 
 int run_rectify(int argc, char** argv) {
-  CLI::App app("The rectified pairs of a stereo sequence, in KITTI layout.", "rectify");
+  CommandLine app("The rectified pairs of a stereo sequence, in KITTI layout.", "rectify");
   CommonOptions common;
   SequenceArguments arguments;
   std::string output;
-  app.add_option("SEQ", arguments.folder, "folder with a stereo sequence")->required();
+  app.add_option("SEQ", arguments.folder, "folder with a stereo sequence").required();
   app.add_option("-o,--output", output, "folder to write; a folder that cairn wrote is replaced")
-      ->required()
-      ->type_name("DIR");
+      .required()
+      .type_name("DIR");
   add_sequence_options(app, arguments);
   add_common_options(app, common, {.threads = true});
   app.footer("Example: cairn rectify V1_01_easy -o rectified");
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   print_warnings(sequence.report.warnings);
   OutputFolder folder(output, "sequence");

@@ -22,31 +22,31 @@ struct Arguments {
 
 /// What every simulated sequence has, with `Options` for its own defaults.
 template <class Options>
-void add_shared_options(CLI::App& app, Options& options, Arguments& arguments) {
+void add_shared_options(CommandLine& app, Options& options, Arguments& arguments) {
   app.add_option("-o,--output", arguments.output, "folder to write; a folder that cairn wrote is replaced")
-      ->required()
-      ->type_name("DIR");
+      .required()
+      .type_name("DIR");
   app.add_option("--frames-count,--frames", options.frames_count,
                  fmt::format("frames, at {} a second", options.rate_hz))
-      ->capture_default_str()
-      ->type_name("N");
-  app.add_option("--speed", options.speed, "metres a second")->capture_default_str()->type_name("V");
+      .show_default()
+      .type_name("N");
+  app.add_option("--speed", options.speed, "metres a second").show_default().type_name("V");
   app.add_option("--loops", options.loops, "times around; 0: as many as the way needs, or a part of one")
-      ->capture_default_str()
-      ->type_name("N");
+      .show_default()
+      .type_name("N");
   app.add_option("--scale", arguments.scale, "image width and height over the default's")
-      ->check(number_in(0.05, 4))
-      ->capture_default_str()
-      ->type_name("X");
+      .check(number_in(0.05, 4))
+      .show_default()
+      .type_name("X");
   add_common_options(app, arguments.common, {.threads = true, .seed = true});
 }
 
-void add_noise_option(CLI::App& app, const std::string& sensor, const std::string& description,
+void add_noise_option(CommandLine& app, const std::string& sensor, const std::string& description,
                       Arguments& arguments) {
   app.add_option("--noise", arguments.noise,
                  fmt::format("{}; none: exact (default: {})", description, sensor))
-      ->check(CLI::IsMember({sensor, std::string("none")}).description(""))
-      ->type_name(sensor + "|none");
+      .check(one_of({sensor, std::string("none")}))
+      .type_name(sensor + "|none");
 }
 
 nlohmann::ordered_json to_json(const SimulationReport& report, const Arguments& arguments) {
@@ -107,27 +107,26 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
 }  // namespace
 
 int run_simulate(int argc, char** argv) {
-  CLI::App app("A simulated recording with exact truth.", "simulate");
+  CommandLine app("A simulated recording with exact truth.", "simulate");
   app.footer("Example: cairn simulate room -o demo/room");
-  app.require_subcommand(1);
   Arguments arguments;
   SimulateRoomOptions room_options;
   SimulateStreetOptions street_options;
 
-  CLI::App& room = *app.add_subcommand("room", "furnished room seen by a hand-held RGB-D camera, TUM layout");
+  CommandLine& room = app.add_command("room", "furnished room seen by a hand-held RGB-D camera, TUM layout");
   add_shared_options(room, room_options, arguments);
   add_noise_option(room, "kinect", "kinect: noise and holes of a Kinect v1", arguments);
 
-  CLI::App& street = *app.add_subcommand("street", "drive around a block with a stereo camera, KITTI layout");
+  CommandLine& street = app.add_command("street", "drive around a block with a stereo camera, KITTI layout");
   add_shared_options(street, street_options, arguments);
   add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
   street.add_option("--baseline", street_options.baseline, "metres between the two cameras")
-      ->capture_default_str()
-      ->type_name("B");
+      .show_default()
+      .type_name("B");
   street.add_flag("--depth-truth", arguments.depth_truth,
                   "also the left camera's true depth, 16 bit, 1/256 m");
 
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   room.parsed() ? simulate_room(arguments, room_options) : simulate_street(arguments, street_options);
   return 0;
 }

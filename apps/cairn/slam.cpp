@@ -19,13 +19,13 @@ struct SlamArguments {
   bool odometry = false, no_cloud = false, no_octree = false;
 };
 
-void declare(CLI::App& app, SlamArguments& arguments) {
-  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D or stereo sequence")->required();
+void declare(CommandLine& app, SlamArguments& arguments) {
+  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D or stereo sequence").required();
   app.add_option("-o,--output", arguments.output, "run folder; one that cairn wrote is replaced")
-      ->type_name("RUN")
-      ->required();
+      .type_name("RUN")
+      .required();
   app.add_option("--map", arguments.map, "go on from the map of an earlier run: its folder, or the run's")
-      ->type_name("MAP");
+      .type_name("MAP");
   app.add_flag("--odometry", arguments.odometry, "track only: no loop closures, no pose graph");
   app.add_flag("--no-cloud", arguments.no_cloud, "write no coloured cloud");
   app.add_flag("--no-octree", arguments.no_octree, "write no octree");
@@ -89,13 +89,13 @@ int warn_if_never_followed(const SlamResult& result) {
 
 int run_slam(int argc, char** argv) {
   SlamArguments arguments;
-  CLI::App app(
+  CommandLine app(
       "SLAM: an RGB-D or stereo sequence without poses becomes a trajectory and a map; with depth images "
       "also a "
       "coloured cloud and an octree.",
       "slam");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
 
   const Stopwatch watch;
   SlamParameters parameters = gather_parameters(arguments);

@@ -27,46 +27,46 @@ struct TwoViewArguments : FeatureArguments {
   TwoViewOptions options;
 };
 
-void declare_inputs(CLI::App& app, TwoViewArguments& arguments) {
-  auto* first = app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM");
-  auto* second = app.add_option("B", arguments.second, "image of the same scene from another place");
-  first->needs(second);
-  auto* camera = add_camera_option(app, arguments.camera);
-  second->needs(camera);
+void declare_inputs(CommandLine& app, TwoViewArguments& arguments) {
+  Option first = app.add_option("A", arguments.first, "image: PNG, JPEG, binary PGM or PPM");
+  Option second = app.add_option("B", arguments.second, "image of the same scene from another place");
+  first.needs(second);
+  const Option camera = add_camera_option(app, arguments.camera);
+  second.needs(camera);
   app.add_option("--essential", arguments.essential,
                  "take this matrix apart, row by row, instead of that of two images")
-      ->type_name("e1,...,e9")
-      ->excludes(first);
-  auto* depth = app.add_option("--depth", arguments.depth, "depth image registered to A, for the scale")
-                    ->type_name("A_DEPTH")
-                    ->needs(first);
+      .type_name("e1,...,e9")
+      .excludes(first);
+  const Option depth =
+      app.add_option("--depth", arguments.depth, "depth image registered to A, for the scale")
+          .type_name("A_DEPTH")
+          .needs(first);
   app.add_option("--depth-scale", arguments.depth_scale, "its units per metre (default: the camera's)")
-      ->check(number_in(1e-9, 1e9))
-      ->type_name("N")
-      ->default_str("")
-      ->needs(depth);
+      .check(number_in(1e-9, 1e9))
+      .type_name("N")
+      .needs(depth);
 }
 
-void declare(CLI::App& app, TwoViewArguments& arguments) {
+void declare(CommandLine& app, TwoViewArguments& arguments) {
   declare_inputs(app, arguments);
   add_feature_options(app, arguments);
   app.add_option(
          "--ratio", arguments.max_ratio,
          "believe a match only if it is nearer than this share of the second nearest; 0: no such test")
-      ->check(number_in(0, 1))
-      ->type_name("X")
-      ->capture_default_str();
+      .check(number_in(0, 1))
+      .type_name("X")
+      .show_default();
   app.add_option(
          "--sigma", arguments.sigma_px,
          "standard deviation of a matched pixel's column and row, pixels: decides which matches agree")
-      ->check(number_in(1e-3, 1e3))
-      ->type_name("PX")
-      ->capture_default_str();
+      .check(number_in(1e-3, 1e3))
+      .type_name("PX")
+      .show_default();
   app.add_option("--iterations", arguments.options.ransac.max_iterations, "at most so many samples")
-      ->check(CLI::Range(1, 10'000'000))
-      ->type_name("N")
-      ->capture_default_str();
-  app.add_option("--output", arguments.output, "the points, in A's camera")->type_name("OUT.csv|OUT.ply");
+      .check(number_in(1, 10'000'000))
+      .type_name("N")
+      .show_default();
+  app.add_option("--output", arguments.output, "the points, in A's camera").type_name("OUT.csv|OUT.ply");
   add_common_options(app, arguments.common, {.threads = true, .seed = true, .quiet = false});
   app.footer(
       "Example: cairn two-view a.png b.png --camera tum-fr1 --depth a_depth.png --output points.csv\n"
@@ -190,9 +190,9 @@ int reconstruct(TwoViewArguments& arguments) {
 
 int run_two_view(int argc, char** argv) {
   TwoViewArguments arguments;
-  CLI::App app("Motion of the camera between two images, and the points that both see.", "two-view");
+  CommandLine app("Motion of the camera between two images, and the points that both see.", "two-view");
   declare(app, arguments);
-  if (const auto code = parse(app, argc, argv)) return *code;
+  if (const auto code = app.parse(argc, argv)) return *code;
   return arguments.essential.empty() ? reconstruct(arguments) : decompose_given(arguments);
 }
 
