@@ -105,6 +105,7 @@ void add_common_options(CLI::App& app, CommonOptions& options, const Offers& off
   if (offers.config) {
     app.add_option("--config", options.config, "YAML or key=value file with settings")->type_name("FILE");
     app.add_option("--set", options.settings, "one setting, overrides --config; may be repeated")
+        ->allow_extra_args(false)  // else it takes what stands behind its value, too: SEQ
         ->type_name("KEY=VALUE");
   }
   if (offers.threads) {

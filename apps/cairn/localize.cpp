@@ -9,12 +9,14 @@
 #include "cairn/localize/motion_check.h"
 #include "cairn/map/map_view.h"
 #include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "common.h"
 #include "localize_outputs.h"
 #include "localize_parameters.h"
 #include "localize_pictures.h"
 #include "localize_query.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -88,13 +90,8 @@ class LocalizeRun {
     return item;
   }
 
-  /// In order; false for an image that could not be read.
-  bool take(std::size_t index, Item&& item, const Sequence& sequence) {
-    if (!item.arrival.error.empty()) {
-      if (images_.empty() && unreadable_.empty()) std::rethrow_exception(item.arrival.failure);
-      unreadable_.push_back(item.arrival.error);
-      return false;
-    }
+  /// In order; of an image that could be read.
+  void take(std::size_t index, Item&& item, const Sequence& sequence) {
     if (follow_) localize(last_, item);
     motion_.check(item.arrival.observed.stamp_ns, item.image.found);
     if (item.image.found.verdict == Verdict::good) last_ = item.image.found.camera_from_world.inverse();
@@ -103,11 +100,9 @@ class LocalizeRun {
     item.image.file = sequence.frames[index].color.filename().string();
     item.image.feature_seconds = item.arrival.feature_seconds;
     images_.push_back(std::move(item.image));
-    return true;
   }
 
   [[nodiscard]] const std::vector<LocalizedImage>& images() const { return images_; }
-  [[nodiscard]] const std::vector<std::string>& unreadable() const { return unreadable_; }
 
  private:
   void localize(const std::optional<WorldFromCamera>& prior, Item& item) const {
@@ -123,7 +118,6 @@ class LocalizeRun {
   bool follow_;                                         // the last pose is the prior of the next image
   std::optional<WorldFromCamera> last_;
   std::vector<LocalizedImage> images_;
-  std::vector<std::string> unreadable_;
 };
 
 int exit_code(const std::vector<LocalizedImage>& images) {
@@ -143,10 +137,17 @@ std::vector<std::optional<WorldFromCamera>> read_priors(const LocalizeArguments&
   return poses_of_frames(sequence, {.path = arguments.prior});
 }
 
-/// All images, as long as no one asks to stop.
-void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor, Progress& progress) {
+/// All images, as long as no one asks to stop; what is wrong with those that cannot be read.
+std::vector<std::string> run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor,
+                                 Progress& progress) {
+  SkippedFrames skipped(progress, "image");
   const auto take = [&](std::size_t i, LocalizeRun::Item&& item) {
-    if (!run.take(i, std::move(item), sequence)) progress.warn(run.unreadable().back() + " It is skipped.");
+    if (item.arrival.failure) {
+      skipped.skip(item.arrival.failure);
+    } else {
+      skipped.take();
+      run.take(i, std::move(item), sequence);
+    }
     progress.update(static_cast<std::int64_t>(i) + 1);
     return !progress.stop_requested();
   };
@@ -154,6 +155,8 @@ void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executo
   executor.ordered_pipeline<LocalizeRun::Item>(
       sequence.frames.size(), [&](std::size_t i) { return run.produce(i); }, take);
   progress.finish();
+  skipped.finish();
+  return skipped.messages();
 }
 
 }  // namespace
@@ -174,9 +177,10 @@ int run_localize(int argc, char** argv) {
       open_query(arguments.sequence.folder, parameters.sequence, map.info(), arguments.mono);
   const QueryCamera camera = query_camera(sequence, map.info());
   if (!arguments.any_camera) require_same_camera(map.info(), camera, sequence.calibration_source);
+  const auto progress = make_progress(arguments.common);
+  check_recording(sequence, *progress);
   OutputFolder folder(arguments.output, "run");
   const Executor executor(arguments.common.thread_count());
-  const auto progress = make_progress(arguments.common);
   Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
 
   const Frontend frontend(sequence,
@@ -184,13 +188,12 @@ int run_localize(int argc, char** argv) {
   const Localizer localizer(map, camera, parameters.localize);
   LocalizeRun run(localizer, frontend, parameters.localize.trust, read_priors(arguments, sequence),
                   arguments.prior == kFollow);
-  run_all(run, sequence, executor, *progress);
+  summary.unreadable = run_all(run, sequence, executor, *progress);
   check.wait();
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
 
   summary.images = sequence.frames.size();
-  summary.unreadable = run.unreadable();
-  summary.stopped = run.images().size() + run.unreadable().size() < sequence.frames.size();
+  summary.stopped = run.images().size() + summary.unreadable.size() < sequence.frames.size();
   summary.threads = executor.threads();
   summary.total_seconds = watch.seconds();
   write_file(folder.work() / "trajectory.txt", format_tum_trajectory(trajectory_of(run.images())));
