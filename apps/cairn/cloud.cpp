@@ -9,6 +9,7 @@
 #include "cairn/image/codec.h"
 #include "commands.h"
 #include "fusion.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -82,6 +83,7 @@ Result build_cloud(const CloudArguments& arguments) {
   const Stopwatch watch;
   const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
   const auto progress = make_progress(arguments.common);
+  check_recording(posed.sequence, *progress);
   const Executor executor(arguments.common.thread_count());
   CloudBuilder builder(arguments.options);
   Result result;

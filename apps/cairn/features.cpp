@@ -8,6 +8,7 @@
 #include "cairn/core/file.h"
 #include "cairn/image/codec.h"
 #include "cairn/report/feature_picture.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "feature_arguments.h"
 
@@ -61,6 +62,11 @@ std::string to_text(const TimedFeatures& timed) {
                      timed.image.height(), timed.features.keypoints.size(), timed.time_ms);
 }
 
+void write_outputs(const TimedFeatures& timed, const std::string& picture, std::optional<AtomicFile>& list) {
+  if (!picture.empty()) write_png(picture, draw_keypoints(timed.image, timed.features.keypoints));
+  if (list) list->write(format_csv(timed.features.keypoints));
+}
+
 }  // namespace
 
 int run_features(int argc, char** argv) {
@@ -77,21 +83,33 @@ int run_features(int argc, char** argv) {
   const auto progress = make_progress(arguments.common);
   progress->start("features", static_cast<std::int64_t>(arguments.images.size()), "images");
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  std::string text;  // printed when all images are known to be good
+  SkippedFrames skipped(*progress, "image");
+  std::string text;  // printed after all warnings
   for (std::size_t i = 0; i < arguments.images.size(); ++i) {
     if (progress->stop_requested()) return 1;
-    const TimedFeatures timed = extract_timed(arguments.images[i], arguments, *extractor, executor);
-    json.push_back(to_json(timed));
-    text += to_text(timed);
-    if (!arguments.draw.empty())
-      write_png(arguments.draw, draw_keypoints(timed.image, timed.features.keypoints));
-    if (output) output->write(format_csv(timed.features.keypoints));
+    try {
+      const TimedFeatures timed = extract_timed(arguments.images[i], arguments, *extractor, executor);
+      skipped.take();
+      json.push_back(to_json(timed));
+      text += to_text(timed);
+      if (arguments.images.size() == 1) write_outputs(timed, arguments.draw, output);
+    } catch (const InputError&) {
+      if (arguments.images.size() == 1) throw;
+      skipped.skip(std::current_exception());
+    }
     progress->update(static_cast<std::int64_t>(i + 1));
   }
   progress->finish();
+  skipped.finish();
+  if (skipped.count() > 0)
+    text += fmt::format("{} images cannot be read and were skipped\n", skipped.count());
   if (output) output->commit();
   if (arguments.common.json)
-    text = nlohmann::ordered_json{{"method", arguments.method}, {"images", json}}.dump(2) + "\n";
+    text =
+        nlohmann::ordered_json{
+            {"method", arguments.method}, {"images", json}, {"unreadable", skipped.count()}}
+            .dump(2) +
+        "\n";
   fmt::print("{}", text);
   return 0;
 }

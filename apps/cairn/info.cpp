@@ -8,9 +8,11 @@
 #include "cairn/core/error.h"
 #include "cairn/map/map_file.h"
 #include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "common.h"
 #include "info_map.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -73,12 +75,13 @@ void print_depth(const DepthCalibration& depth) {
   if (depth.camera) fmt::print("             {}\n", describe(*depth.camera));
 }
 
-void print_text(const Sequence& sequence) {
+void print_text(const Sequence& sequence, std::int64_t unreadable) {
   fmt::print("sequence     {}\n", sequence.folder.string());
   fmt::print("format       {}\n", sequence.format);
   fmt::print("frames       {} over {:.2f} s, {:.2f} frames per second{}\n", sequence.frames.size(),
              duration_s(sequence), rate_hz(sequence),
              sequence.has_times ? "" : ": assumed, as nothing states times or rate_hz");
+  if (unreadable > 0) fmt::print("unreadable   {} frames, which other commands skip\n", unreadable);
   print_association(sequence.report);
   fmt::print("camera       {}\n", describe(sequence.calibration.camera));
   fmt::print("             from {}\n", sequence.calibration_source);
@@ -118,11 +121,12 @@ nlohmann::ordered_json to_json(const RawStereo& raw) {
       {"rectified_from_right_xyzw", quaternion(raw.rectification.rectified_from_right)}};
 }
 
-void print_json(const Sequence& sequence) {
+void print_json(const Sequence& sequence, std::int64_t unreadable) {
   nlohmann::ordered_json json;
   json["sequence"] = sequence.folder.string();
   json["format"] = sequence.format;
   json["frames"] = sequence.frames.size();
+  json["unreadable"] = unreadable;
   json["duration_s"] = duration_s(sequence);
   json["rate_hz"] = rate_hz(sequence);
   json["has_times"] = sequence.has_times;
@@ -142,6 +146,26 @@ void print_json(const Sequence& sequence) {
   const auto oxts = oxts_in(sequence.folder);
   json["oxts"] = oxts ? nlohmann::ordered_json(oxts->string()) : nullptr;
   fmt::print("{}\n", json.dump(2));
+}
+
+/// Looks at all images, and decodes those of one frame. InputError where no frame can be read.
+std::int64_t count_unreadable(const Sequence& sequence, Progress& progress) {
+  const FrameLoader loader(sequence);
+  SkippedFrames skipped(progress);
+  bool any_decoded = false;
+  for (std::size_t i = 0; i < sequence.frames.size(); ++i) {
+    const FrameId id{static_cast<std::int32_t>(i)};
+    try {
+      loader.probe(id);
+      if (!any_decoded) (void)loader.load(id);
+      any_decoded = true;
+      skipped.take();
+    } catch (const InputError&) {
+      skipped.skip(std::current_exception());
+    }
+  }
+  skipped.finish();
+  return skipped.count();
 }
 
 /// What chooses from a sequence would do nothing for a map.
@@ -171,8 +195,10 @@ int run_info(int argc, char** argv) {
   }
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   print_warnings(sequence.report.warnings);
-  (void)FrameLoader(sequence).load({0});  // throws where the images do not fit the calibration
-  common.json ? print_json(sequence) : print_text(sequence);
+  const auto progress = make_progress(common);
+  const std::int64_t unreadable = count_unreadable(sequence, *progress);
+  check_recording(sequence, *progress);
+  common.json ? print_json(sequence, unreadable) : print_text(sequence, unreadable);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include "cairn/localize/localizer.h"
 #include "cairn/localize/motion_check.h"
 #include "cairn/map/map_view.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "common.h"
 #include "localize_outputs.h"
@@ -16,6 +17,7 @@
 #include "localize_query.h"
 #include "map_pictures.h"
 #include "pose_arguments.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -92,13 +94,8 @@ class LocalizeRun {
     return item;
   }
 
-  /// In order; false for an image that could not be read.
-  bool take(std::size_t index, Item&& item, const Sequence& sequence) {
-    if (!item.arrival.error.empty()) {
-      if (images_.empty() && unreadable_.empty()) std::rethrow_exception(item.arrival.failure);
-      unreadable_.push_back(item.arrival.error);
-      return false;
-    }
+  /// In order; of an image that could be read.
+  void take(std::size_t index, Item&& item, const Sequence& sequence) {
     if (follow_) localize(last_, item);
     if (motion_) motion_->check(item.arrival.observed.stamp_ns, item.image.found);
     if (item.image.found.verdict == Verdict::good) last_ = item.image.found.camera_from_world.inverse();
@@ -107,11 +104,9 @@ class LocalizeRun {
     item.image.file = sequence.frames[index].color.filename().string();
     item.image.feature_seconds = item.arrival.feature_seconds;
     images_.push_back(std::move(item.image));
-    return true;
   }
 
   [[nodiscard]] const std::vector<LocalizedImage>& images() const { return images_; }
-  [[nodiscard]] const std::vector<std::string>& unreadable() const { return unreadable_; }
 
  private:
   void localize(const std::optional<WorldFromCamera>& prior, Item& item) const {
@@ -127,7 +122,6 @@ class LocalizeRun {
   bool follow_;                                         // the last pose is the prior of the next image
   std::optional<WorldFromCamera> last_;
   std::vector<LocalizedImage> images_;
-  std::vector<std::string> unreadable_;
 };
 
 int exit_code(const std::vector<LocalizedImage>& images) {
@@ -162,10 +156,17 @@ bool follows(const LocalizeArguments& arguments, const Sequence& sequence, Progr
   return false;
 }
 
-/// All images, as long as no one asks to stop.
-void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor, Progress& progress) {
+/// All images, as long as no one asks to stop; what is wrong with those that cannot be read.
+std::vector<std::string> run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor,
+                                 Progress& progress) {
+  SkippedFrames skipped(progress, "image");
   const auto take = [&](std::size_t i, LocalizeRun::Item&& item) {
-    if (!run.take(i, std::move(item), sequence)) progress.warn(run.unreadable().back() + " It is skipped.");
+    if (item.arrival.failure) {
+      skipped.skip(item.arrival.failure);
+    } else {
+      skipped.take();
+      run.take(i, std::move(item), sequence);
+    }
     progress.update(static_cast<std::int64_t>(i) + 1);
     return !progress.stop_requested();
   };
@@ -173,6 +174,8 @@ void run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executo
   executor.ordered_pipeline<LocalizeRun::Item>(
       sequence.frames.size(), [&](std::size_t i) { return run.produce(i); }, take);
   progress.finish();
+  skipped.finish();
+  return skipped.messages();
 }
 
 }  // namespace
@@ -192,9 +195,11 @@ int run_localize(int argc, char** argv) {
   const Sequence sequence =
       open_query(arguments.sequence.folder, parameters.sequence, map.info(), arguments.mono);
   const QueryCamera camera = query_camera(sequence, map.info());
+  print_warnings(sequence.report.warnings);
+  const auto progress = make_progress(arguments.common);
+  check_recording(sequence, *progress);
   OutputFolder folder(arguments.output, "run");
   const Executor executor(arguments.common.thread_count());
-  const auto progress = make_progress(arguments.common);
   Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
 
   const Frontend frontend(sequence,
@@ -203,7 +208,7 @@ int run_localize(int argc, char** argv) {
   const Localizer localizer(map, camera, parameters.localize);
   LocalizeRun run(localizer, frontend, motion_check(sequence, parameters.localize.trust),
                   read_priors(arguments, sequence), follows(arguments, sequence, *progress));
-  run_all(run, sequence, executor, *progress);
+  summary.unreadable = run_all(run, sequence, executor, *progress);
   check.wait();
   write_found_picture(arguments.map, run.images(), folder.work());
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
@@ -211,8 +216,7 @@ int run_localize(int argc, char** argv) {
   summary.images = sequence.frames.size();
   summary.stamps = describe_stamps(sequence);
   summary.camera = describe_camera(sequence.calibration.camera, camera);
-  summary.unreadable = run.unreadable();
-  summary.stopped = run.images().size() + run.unreadable().size() < sequence.frames.size();
+  summary.stopped = run.images().size() + summary.unreadable.size() < sequence.frames.size();
   summary.threads = executor.threads();
   summary.total_seconds = watch.seconds();
   write_file(folder.work() / "trajectory.txt", format_trajectory(run.images(), summary));

@@ -15,6 +15,7 @@
 #include "map_parameters.h"
 #include "map_pictures.h"
 #include "pose_arguments.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -96,9 +97,10 @@ int run_map(int argc, char** argv) {
   if (!arguments.exported.empty()) check_colmap_names(sequence);
   const GivenPoses poses = read_given_poses(sequence, arguments.poses.options());
   print_warnings(poses.warnings);
+  const auto progress = make_progress(arguments.common);
+  check_recording(sequence, *progress);
   OutputFolder folder(arguments.output, "map", has_unfinished_survey);
   const Executor executor(arguments.common.thread_count());
-  const auto progress = make_progress(arguments.common);
   const SurveyResult result =
       run_survey({sequence, poses, settings}, parameters.survey, folder.work(), executor, *progress);
   MapSummary summary{arguments.output,   poses.format,    static_cast<std::int64_t>(sequence.frames.size()),

@@ -9,6 +9,7 @@
 #include "cairn/dense/octree_file.h"
 #include "commands.h"
 #include "fusion.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -92,6 +93,7 @@ void fuse_input(const OctreeArguments& arguments, OccupancyGrid& grid, Result& r
   }
   const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
   const auto progress = make_progress(arguments.common);
+  check_recording(posed.sequence, *progress);
   const Executor executor(arguments.common.thread_count());
   result.fusion =
       fuse_sequence(posed.sequence, posed.world_from_camera, {.occupancy = &grid}, executor, *progress);

@@ -7,6 +7,7 @@
 #include "cairn/sequence/write_kitti.h"
 #include "commands.h"
 #include "common.h"
+#include "recording_checks.h"
 
 namespace cairn::app {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 void print_report(const RectifiedReport& report, const std::string& folder, bool as_json) {
   if (as_json) {
     const nlohmann::ordered_json json = {{"frames", report.frames},
+                                         {"unreadable", report.unreadable},
                                          {"poses", report.has_poses},
                                          {"stopped", report.stopped},
                                          {"folder", folder}};
@@ -21,6 +23,7 @@ void print_report(const RectifiedReport& report, const std::string& folder, bool
     return;
   }
   fmt::print("frames       {}{}\n", report.frames, report.stopped ? ", stopped before the end" : "");
+  if (report.unreadable > 0) fmt::print("unreadable   {} frames, skipped\n", report.unreadable);
   fmt::print("poses        {}\n",
              report.has_poses ? "of every frame" : "none: not every frame has a true one");
   fmt::print("written to   {}\n", folder);
@@ -43,8 +46,9 @@ int run_rectify(int argc, char** argv) {
   if (const auto code = app.parse(argc, argv)) return *code;
   const Sequence sequence = open_sequence(arguments.folder, arguments.options());
   print_warnings(sequence.report.warnings);
-  OutputFolder folder(output, "sequence");
   const auto progress = make_progress(common);
+  check_recording(sequence, *progress);
+  OutputFolder folder(output, "sequence");
   const RectifiedReport report =
       write_rectified(sequence, folder.work(), Executor(common.thread_count()), *progress);
   folder.commit();

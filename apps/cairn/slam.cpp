@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cairn/core/file.h"
 #include "cairn/map/map_file.h"
 #include "commands.h"
 #include "common.h"
 #include "fusion.h"
+#include "recording_checks.h"
 #include "slam_outputs.h"
 #include "slam_parameters.h"
 
@@ -69,6 +72,12 @@ int report_nothing_tracked(const SlamResult& result) {
 /// A map of its first frame only is no answer.
 int warn_if_never_followed(const SlamResult& result) {
   if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
+  const auto is_too_far = [](const FrameTrack& track) { return track.decision == KeyframeDecision::too_far; };
+  if (std::any_of(result.frames.begin(), result.frames.end(), is_too_far)) {
+    fmt::print(stderr, "cairn slam: no motion below max_norm was found between any two of {} frames.\n",
+               result.frames.size());
+    return 1;
+  }
   if (result.start_keyframes > 0) {
     fmt::print(
         stderr,
@@ -101,11 +110,12 @@ int run_slam(int argc, char** argv) {
   SlamParameters parameters = gather_parameters(arguments);
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
   print_warnings(sequence.report.warnings);
+  const auto progress = make_progress(arguments.common);
+  check_recording(sequence, *progress);
   const bool has_depth = sequence.calibration.depth.has_value();  // stereo has none to fuse
   const SlamOutputs wanted{has_depth && !arguments.no_cloud, has_depth && !arguments.no_octree};
   OutputFolder folder(arguments.output, "run");
   const Executor executor(arguments.common.thread_count());
-  const auto progress = make_progress(arguments.common);
 
   std::optional<Map> start;
   if (!arguments.map.empty()) start = read_map(arguments.map);

@@ -11,7 +11,9 @@
 #include "cairn/core/file.h"
 #include "cairn/dense/ply.h"
 #include "cairn/features/matching.h"
+#include "cairn/frontend/depth_scale.h"
 #include "cairn/image/codec.h"
+#include "cairn/image/registration.h"
 #include "camera_argument.h"
 #include "commands.h"
 #include "two_view_output.h"
@@ -114,6 +116,14 @@ RawDepthImage read_depth_of(const TwoViewArguments& arguments, const GrayImage& 
   return depth;
 }
 
+void warn_of_scale(const RawDepthImage& depth, double units, const std::vector<std::uint16_t>& invalid) {
+  const DepthImage metres = depth_in_metres(depth, units, invalid);
+  const auto figures = depth_figures({metres.data(), metres.data() + metres.size()});
+  const auto doubt =
+      figures ? doubt_depth_scale(*figures, units, "--depth-scale, or that of the camera") : std::nullopt;
+  if (doubt) fmt::print(stderr, "cairn: {}\n", *doubt);
+}
+
 MetricScale scale_of(const TwoViewArguments& arguments, const Calibration& calibration,
                      const TwoViewReport& report) {
   const double given = arguments.depth_scale;
@@ -121,6 +131,7 @@ MetricScale scale_of(const TwoViewArguments& arguments, const Calibration& calib
   const RawDepthImage depth = read_depth_of(arguments, report.a.image, units);
   const std::vector<std::uint16_t> invalid =
       calibration.depth ? calibration.depth->invalid : std::vector<std::uint16_t>{0};
+  warn_of_scale(depth, units, invalid);
   std::vector<double> depths_m;
   for (const TwoViewPoint& point : report.result.points) {
     const Eigen::Vector2d& pixel = report.pixels_in_a[static_cast<std::size_t>(point.pair)];

@@ -21,7 +21,11 @@ CASES = [
     Case("no features asked for", "features a.png --count 0", ("--count",), (A,)),
     Case("unknown method", "features a.png --method surf", ("--method", "surf", "ORB"), (A,)),
     Case("no image", "features", ("IMG",)),
-    Case("missing image", "features a.png no.png", ("no.png: expected a readable file",), (A,)),
+    *(Case(f"{which} image is missing", f"features {images}", ("no.png: expected a readable file", "The image is skipped."), (A, B), code=0,
+           prints=("a.png  64x48", "b.png  64x48", "1 images cannot be read"))
+      for which, images in (("first", "no.png a.png b.png"), ("last", "a.png b.png no.png"))),
+    Case("missing image counted as JSON", "features no.png a.png --json", ("no.png: expected",), (A,), code=0, prints=('"unreadable": 1',)),
+    Case("two missing images", "features no.png nor.png", ("no.png: expected a readable file", "none of 2 images can be read")),
     Case("16-bit image", "features deep.png", ("deep.png: expected",), (DEEP,)),
     Case("text for an image", "features a.txt", ("a.txt: expected",), (file("a.txt", "hello"),)),
     Case("broken image", "features a.png", ("a.png: expected",), (file("a.png", png_bytes()[:200]),)),

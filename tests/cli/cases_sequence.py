@@ -36,6 +36,10 @@ JUMP = TABLE.replace("1.2,49,8", "1.2,49.01,8")
 NAMED = "# frame_id, translation_x, translation_y, translation_z, quat_x, quat_y, quat_z, quat_w, scale, fusion_quality, v3\n" + "".join(
     f"{t}000000,0,0,0,0,0,0,1,1,1,1\n" for t in (1000, 1100, 1200))
 LATER_CLOCK = "".join(f"{1317042145.594 + t:.3f} 0 0 0 0 0 0 1\n" for t in (0, 0.1, 0.2))
+# What becomes of an image: a function of its path that gives a maker.
+SPOILED = (("empty", lambda path: file(path, b"")), ("cut", lambda path: file(path, png_bytes()[:300])), ("missing", without),
+           ("smaller", lambda path: file(path, png_bytes(32, 24, "gray16" if "depth" in path else "rgb8"))))
+PARAMETERS = "--set camera.fx=50 --set camera.fy=50 --set camera.cx=31.5 --set camera.cy=23.5 --set camera.scale=1000"
 
 CASES = [
     Case("a good sequence", "info seq", given=(SEQ,), code=0, prints=("TUM", "frames       3")),
@@ -92,6 +96,30 @@ CASES = [
          (SEQ, file("seq/depth/1.png", b"no image")), code=0, leaves=("a.ply",)),
     Case("missing image in the middle", "cloud seq -o a.ply", ("frame 1 left out: seq/rgb/1.png: expected a readable file",),
          (SEQ, without("seq/rgb/1.png")), code=0, leaves=("a.ply",)),
+    # the first image is no other than the rest
+    *(Case(f"{what} first {kind}, {command.split()[0]}", command, ("0.png: expected",), (SEQ, spoil(f"seq/{place}/0.png")), code=0,
+           leaves=leaves, prints=prints)
+      for what, spoil in SPOILED for kind, place in (("image", "rgb"), ("depth", "depth"))
+      for command, leaves, prints in (("info seq --json", (), ('"unreadable": 1',)), ("cloud seq -o a.ply --json", ("a.ply",), ('"unreadable": 1',)),
+                                      ("octree seq -o a.bt --json", ("a.bt",), ('"unreadable": 1',)))),
+    Case("the first two are missing", "info seq", ("rgb/0.png: expected", "rgb/1.png: expected"), (SEQ, without("seq/rgb/0.png"), without("seq/rgb/1.png")),
+         code=0, prints=("unreadable   2 frames",)),
+    Case("image of another size in the middle", "info seq", ("rgb/1.png: expected an image of 64x48",), (SEQ, file("seq/rgb/1.png", png_bytes(32, 24))),
+         code=0, prints=("unreadable   1 frames",)),
+    Case("no image can be read", "info seq", ("rgb/0.png: expected a readable file", "none of 3 frames can be read"),
+         (SEQ, *[without(f"seq/rgb/{i}.png") for i in range(3)])),
+    Case("no image can be read by slam", "slam seq -o run --quiet", ("depth/0.png: expected", "none of 3 frames can be read"),
+         (SEQ, *[file(f"seq/depth/{i}.png", b"") for i in range(3)])),
+    Case("no image can be read by map", "map seq -o map --quiet", ("rgb/0.png: expected", "none of 3 frames can be read"),
+         (SEQ, *[file(f"seq/rgb/{i}.png", b"") for i in range(3)])),
+    Case("size from the parameters alone", "slam seq -o run --quiet " + PARAMETERS, ("rgb/0.png: expected a PNG", "of 2 frames"),
+         (SEQ, without("seq/camera.yaml"), file("seq/rgb/0.png", b"")), code=1, leaves=("run",)),
+    # depth
+    *(Case(f"depth.scale {scale} for {command.split()[0]}", command,
+           (f"median depth of {wrong} m", f"with depth.scale {scale}; with 1000 it would be 2.02 m"), (SEQ, camera("1000.0", scale)),
+           code=0, leaves=leaves)
+      for scale, wrong in (("5000", "0.40"), ("200", "10.11"))
+      for command, leaves in (("info seq", ()), ("cloud seq -o a.ply --max-depth 20", ("a.ply",)), ("octree seq -o a.bt", ("a.bt",)))),
     # poses
     Case("no such poses", "cloud seq --poses p.txt -o a.ply", ("p.txt: expected a readable file, found No such file",), (SEQ,)),
     Case("poses with 7 numbers", "cloud seq --poses p.txt -o a.ply", ("p.txt:1: expected 8 values", "found 7"),

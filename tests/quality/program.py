@@ -37,13 +37,21 @@ class Quality(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
 
-    def cairn(self, *arguments, code=0, environment=None):
-        """Runs a command in the test's folder; what it printed to stdout. `environment`: variables set for it."""
+    def run_cairn(self, *arguments, code=0, environment=None):
+        """Runs a command in the test's folder. `environment`: variables set for it."""
         done = subprocess.run([Path(sys.argv[1]).resolve(), *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
                               capture_output=True, text=True, timeout=TIME_LIMIT_S, check=False,
                               env={**os.environ, **(environment or {})})
         self.assertEqual(done.returncode, code, f"cairn {' '.join(map(str, arguments))}\n{done.stdout}{done.stderr}")
-        return done.stdout
+        return done
+
+    def cairn(self, *arguments, code=0, environment=None):
+        """The same; what it printed to stdout."""
+        return self.run_cairn(*arguments, code=code, environment=environment).stdout
+
+    def complaints(self, *arguments, code=0):
+        """The same; what it printed to stderr."""
+        return self.run_cairn(*arguments, code=code).stderr
 
     def figures(self, *arguments):
         return json.loads(self.cairn(*arguments, "--json"))

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program on real recordings. Arguments: the program, the folder of recordings (README, "Tests")."""
 
+import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import program
 
@@ -14,6 +16,12 @@ REDKITCHEN_WITHIN = 0.80
 # The truth's speed jumps every third pair, as it is sampled every 10 ms: 0.038 m that no estimate can avoid.
 KITTI_STEP_M = 0.047
 KITTI_STEP_DEG = 0.065
+
+
+FR1_CAMERA = """\
+camera: {model: radtan, width: 640, height: 480, fx: 517.3, fy: 516.5, cx: 318.6, cy: 255.3, distortion: [0.2624, -0.9531, -0.0054, 0.0026, 1.1633]}
+depth: {scale: 5000}
+"""
 
 
 class Redkitchen(program.Quality):
@@ -50,6 +58,51 @@ class Euroc(program.Quality):
         run = self.figures("slam", sequence, "-o", "run")
         self.assertGreaterEqual(run["frames"]["tracked"], 97)
         self.assertLessEqual(run["ate_rmse_m"], 0.05)
+
+
+class Mistakes(program.Quality):
+    """What is wrong with how a recording is described is said, and of a right one nothing."""
+
+    def doubts(self, *arguments):
+        return self.complaints("info", *arguments)
+
+    def test_scale_of_depth(self):
+        data = program.recordings()
+        for name, right in (("redkitchen", "1000"), ("fr1_desk_excerpt", "5000"), ("five_views", "1000")):
+            camera = (data / "rgbd" / name / "camera.yaml")
+            text = camera.read_text() if camera.is_file() else FR1_CAMERA
+            for factor in (1, 5, 0.2):
+                scale = f"{factor * int(right):g}"
+                (self.folder / "camera.yaml").write_text(re.sub(r"scale: *[0-9.]+", f"scale: {scale}", text))
+                said = self.doubts(data / "rgbd" / name, "--camera", "camera.yaml")
+                if factor == 1:
+                    self.assertEqual(said, "", name)
+                else:
+                    self.assertIn(f"with depth.scale {scale}; with {right} it would be", said, name)
+        pair = [data / "course/two_view" / file for file in ("1.png", "2.png", "1_depth.png")]
+        for scale in ("5000", "1000", "25000"):
+            said = self.complaints("two-view", *pair[:2], "--camera", "tum-fr1", "--depth", pair[2], "--depth-scale", scale)
+            self.assertEqual("with 5000 it would be" in said, scale != "5000", said)
+
+    def test_exchanged_pairs(self):
+        stereo = program.recordings() / "stereo"
+        for name, folders in (("kitti_0039", ("image_0", "image_1")), ("odo01", ("image_0", "image_1")), ("euroc_v101", ("cam0", "cam1"))):
+            self.assertEqual(self.doubts(stereo / name), "", name)
+            copy = self.folder / name
+            shutil.copytree(stereo / name, copy, copy_function=lambda source, target: Path(target).symlink_to(source))
+            root = copy / "mav0" if (copy / "mav0").is_dir() else copy
+            left, right = (root / folder for folder in folders)
+            exchange(left, right)
+            if name == "euroc_v101":
+                exchange(left / "sensor.yaml", right / "sensor.yaml")  # the calibration stays where it was
+            self.assertIn("look exchanged", self.complaints("info", copy, code=2), name)
+
+
+def exchange(a, b):
+    aside = a.with_name("aside")
+    a.rename(aside)
+    b.rename(a)
+    aside.rename(b)
 
 
 class Localisation(program.Quality):

@@ -3,6 +3,7 @@
 
 import json
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -112,6 +113,68 @@ class Receiver(program.Quality):
         self.assertGreater(self.map("map", "poses.csv")["landmarks"], 200)
 
 
+class SmallStreet(program.Quality):
+    """Mistakes in how a stereo recording is laid out or described."""
+
+    def setUp(self):
+        super().setUp()
+        self.cairn("simulate", "street", "-o", "street", "--frames-count", "14", "--scale", "0.25", "--quiet")
+        self.images = [self.folder / "street" / camera for camera in ("image_0", "image_1")]
+
+    def slam(self, *options):
+        return self.figures("slam", "street", "-o", "run", *options)
+
+    def test_names_without_leading_zeros_come_in_natural_order(self):
+        before = self.slam()
+        for image in (path for folder in self.images for path in sorted(folder.iterdir())):
+            image.rename(image.with_name(f"{int(image.stem)}.png"))
+        after = self.slam()
+        self.assertLess(after["ate_rmse_m"], 0.2)
+        self.assertEqual(after["ate_rmse_m"], before["ate_rmse_m"])
+        self.cairn("map", "street", "-o", "map", "--quiet")
+        plain = self.folder / "plain"
+        shutil.copytree(self.images[0], plain)
+        self.cairn("localize", "map", plain, "-o", "found", "--quiet")
+        found = (self.folder / "found/localization.csv").read_text()
+        self.assertEqual(re.findall(r"\d+\.png", found), [f"{i}.png" for i in range(14)])
+
+    def test_exchanged_images_are_named_by_every_command_that_reads_pairs(self):
+        self.cairn("map", "street", "-o", "map", "--quiet")
+        left, right = self.images
+        left.rename(self.folder / "other")
+        right.rename(left)
+        (self.folder / "other").rename(right)
+        for command in (("info", "street"), ("slam", "street", "-o", "run"), ("map", "street", "-o", "map2"),
+                        ("rectify", "street", "-o", "rectified"), ("localize", "map", "street", "-o", "found")):
+            said = self.complaints(*command, code=2)
+            self.assertIn("left and right images that look exchanged", said)
+            self.assertIn("Exchange the images of image_0 and image_1", said)
+        self.cairn("localize", "map", "street", "-o", "found", "--mono", "--quiet")  # the right camera's are as good
+
+    def test_a_motion_beyond_max_norm_is_refused(self):
+        self.assertEqual(self.slam("--set", "max_norm=2")["frames"]["tracked"], 14)  # 8 m/s at 10 Hz
+        said = self.complaints("slam", "street", "-o", "run", "--set", "max_norm=0.3", "--quiet", code=1)
+        self.assertIn("moved further than max_norm = 0.3", said)
+        rows = (self.folder / "run/frames.csv").read_text()
+        self.assertGreaterEqual(rows.count("too far"), 4, rows)
+
+    def test_a_start_map_does_not_lift_max_norm(self):
+        self.slam()
+        said = self.complaints("slam", "street", "-o", "again", "--map", "run", "--set", "max_norm=0.3", "--quiet", code=1)
+        self.assertIn("moved further than max_norm = 0.3", said)
+
+    def test_the_first_pairs_may_be_unreadable(self):
+        (self.images[0] / "000000.png").write_bytes(b"")
+        (self.images[1] / "000001.png").unlink()
+        run = self.slam()
+        self.assertEqual((run["frames"]["tracked"], len(run["frames"]["unreadable"])), (12, 2))
+        self.assertEqual(self.figures("map", "street", "-o", "map")["frames"]["unreadable"], 2)
+        self.assertEqual(self.figures("localize", "map", "street", "-o", "found")["images"]["unreadable"], 2)
+        self.assertEqual(self.figures("rectify", "street", "-o", "rectified")["unreadable"], 2)
+        self.assertEqual(self.figures("info", "street")["unreadable"], 2)
+        self.assertEqual(self.figures("info", "rectified")["frames"], 12)
+
+
 class Small(program.Quality):
     """On a quarter of the pixels, where accuracy is not the question."""
 
@@ -129,6 +192,19 @@ class Small(program.Quality):
         self.cairn("slam", "room", "-o", "run", "--set", "features=700", "--set", "nearby_loops=3", "--quiet")
         self.cairn("slam", "room", "-o", "again", "--config", "run/config.yaml", "--quiet")
         self.assert_same_files("run", "again", but=("run.json",))
+
+    def test_a_wrong_scale_of_depth_is_doubted(self):
+        camera = self.folder / "room/camera.yaml"
+        right = camera.read_text()
+        self.assertNotIn("median depth", self.complaints("slam", "room", "-o", "run", "--frames", "0:20", "--quiet"))
+        for scale in ("1000", "25000"):
+            camera.write_text(re.sub(r"scale: [0-9.]+", f"scale: {scale}", right))
+            for command in (("slam", "room", "-o", "run"), ("map", "room", "-o", "map"), ("cloud", "room", "-o", "room.ply"),
+                            ("octree", "room", "-o", "room.bt"), ("info", "room")):
+                quiet = () if command[0] == "info" else ("--quiet",)
+                done = subprocess.run([Path(sys.argv[1]).resolve(), *command, "--frames", "0:20", *quiet], cwd=self.folder,
+                                      capture_output=True, text=True, check=False)
+                self.assertIn(f"with depth.scale {scale}; with 5000 it would be", done.stderr)
 
     def test_cloud_and_octree_from_a_trajectory(self):
         self.cairn("slam", "room", "-o", "run", "--quiet")

@@ -45,6 +45,31 @@ std::vector<std::string_view> split_at_blanks(std::string_view text) {
   return fields;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Cuts a run of digits, or one other byte, off the front of `rest`, which is not empty.
+std::string_view take_piece(std::string_view& rest) {
+  const auto* const end = std::find_if_not(rest.begin(), rest.end(), is_digit);
+  const auto length = std::max<std::size_t>(1, static_cast<std::size_t>(end - rest.begin()));
+  const std::string_view piece = rest.substr(0, length);
+  rest.remove_prefix(length);
+  return piece;
+}
+
+std::string_view without_leading_zeros(std::string_view digits) {
+  return digits.substr(std::min(digits.find_first_not_of('0'), digits.size()));
+}
+
+/// Below 0, 0 or above: two runs of digits by their value, else by their bytes.
+int compare_pieces(std::string_view a, std::string_view b) {
+  if (!is_digit(a[0]) || !is_digit(b[0])) return a.compare(b);
+  const std::string_view value_a = without_leading_zeros(a), value_b = without_leading_zeros(b);
+  if (value_a.size() != value_b.size()) return value_a.size() < value_b.size() ? -1 : 1;
+  return value_a.compare(value_b);
+}
+
 }  // namespace
 
 TextFile::TextFile(const std::filesystem::path& path, Separator separator)
@@ -130,6 +155,16 @@ std::string format_stamp(std::int64_t stamp_ns) {
       stamp_ns < 0 ? 0 - static_cast<std::uint64_t>(stamp_ns) : static_cast<std::uint64_t>(stamp_ns);
   return fmt::format("{}{}.{:09}", stamp_ns < 0 ? "-" : "", magnitude / 1'000'000'000,
                      magnitude % 1'000'000'000);
+}
+
+bool comes_naturally_before(std::string_view a, std::string_view b) {
+  std::string_view rest_a = a, rest_b = b;
+  while (!rest_a.empty() && !rest_b.empty()) {
+    const std::string_view piece_a = take_piece(rest_a), piece_b = take_piece(rest_b);
+    const int order = compare_pieces(piece_a, piece_b);
+    if (order != 0) return order < 0;
+  }
+  return rest_a.empty() && rest_b.empty() ? a < b : rest_a.empty();
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

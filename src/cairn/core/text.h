@@ -51,6 +51,11 @@ class TextFile {
 /// Nanoseconds as seconds with nine decimals.
 [[nodiscard]] std::string format_stamp(std::int64_t stamp_ns);
 
+/// Orders names as people count: runs of digits compare as numbers of any length, all else byte by byte, so
+/// that "cam0_2.png" comes before "cam0_10.png". Names that differ by leading zeros only come with the most
+/// zeros first. A strict weak order, and two different names are never equal.
+[[nodiscard]] bool comes_naturally_before(std::string_view a, std::string_view b);
+
 /// Letters to put in, take out or replace until one word is the other (Levenshtein).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -178,6 +179,46 @@ TEST_F(TextFileTest, names_the_line_with_a_wrong_number_of_fields) {
   EXPECT_NO_THROW(file.expect_fields(file.lines()[0], 3, "a b c"));
   EXPECT_EQ(message([&] { file.expect_fields(file.lines()[0], 2, "a b"); }),
             ":1: expected 2 values (a b), found 3.\n  Mend or delete the line.");
+}
+
+/// The names in natural order.
+std::vector<std::string> sorted(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end(), comes_naturally_before);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(NaturalOrder, counts_as_people_do) {
+  EXPECT_EQ(sorted({"10.png", "9.png", "1.png", "100.png", "11.png", "2.png", "0.png"}),
+            (Names{"0.png", "1.png", "2.png", "9.png", "10.png", "11.png", "100.png"}));
+}
+
+TEST(NaturalOrder, compares_every_run_of_digits) {
+  EXPECT_EQ(sorted({"cam1_0_1.png", "cam0_12_3.png", "cam0_2_10.png", "cam0_2_9.png", "cam0_12_20.png"}),
+            (Names{"cam0_2_9.png", "cam0_2_10.png", "cam0_12_3.png", "cam0_12_20.png", "cam1_0_1.png"}));
+}
+
+TEST(NaturalOrder, takes_numbers_that_no_integer_holds) {
+  EXPECT_EQ(
+      sorted({"20000000000000000000000000.png", "9999999999999999999.png", "1000000000000000000000.png"}),
+      (Names{"9999999999999999999.png", "1000000000000000000000.png", "20000000000000000000000000.png"}));
+}
+
+TEST(NaturalOrder, breaks_ties_by_leading_zeros) {
+  EXPECT_EQ(sorted({"1.png", "2.png", "01.png", "001.png", "000002.png"}),
+            (Names{"001.png", "01.png", "1.png", "000002.png", "2.png"}));
+  EXPECT_EQ(sorted({"0", "00"}), (Names{"00", "0"}));
+  EXPECT_FALSE(comes_naturally_before("7", "7"));
+}
+
+TEST(NaturalOrder, puts_the_shorter_of_two_names_first) {
+  EXPECT_EQ(sorted({"a1b", "a1", "a", "", "a10"}), (Names{"", "a", "a1", "a1b", "a10"}));
+}
+
+TEST(NaturalOrder, compares_other_bytes_without_sign) {
+  EXPECT_TRUE(comes_naturally_before("z", "\xC3\xA4"));
+  EXPECT_FALSE(comes_naturally_before("\xC3\xA4", "z"));
 }
 
 TEST(EditDistance, counts_letters) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cairn/core/error.h"
+#include "cairn/sequence/skipped_frames.h"
 
 namespace cairn {
 namespace {
@@ -83,15 +84,15 @@ FusionReport fuse_sequence(const Sequence& sequence,
   const auto pose_of = [&](FrameId id) { return *world_from_camera[static_cast<std::size_t>(id.value)]; };
   const FrameLoader loader(sequence);
   const PixelRays rays(sequence.calibration.camera);
+  SkippedFrames skipped(progress);
   progress.start("fusing", static_cast<std::int64_t>(ids.size()), "frames");
   executor.ordered_pipeline<ReducedFrame>(
       ids.size(), [&](std::size_t i) { return reduce_frame(loader, ids[i], rays, pose_of(ids[i]), targets); },
       [&](std::size_t i, ReducedFrame&& reduced) {
-        if (reduced.failure && report.fused == 0) std::rethrow_exception(reduced.failure);
         if (reduced.failure) {
-          progress.warn(fmt::format("frame {} left out: {}", ids[i].value, reduced.defect));
-          ++report.unreadable;
+          skipped.skip(reduced.failure, fmt::format("frame {} left out: {}", ids[i].value, reduced.defect));
         } else {
+          skipped.take();
           if (reduced.cloud) targets.cloud->add(*reduced.cloud);
           if (reduced.occupancy) targets.occupancy->apply(*reduced.occupancy);
           ++report.fused;
@@ -101,6 +102,8 @@ FusionReport fuse_sequence(const Sequence& sequence,
         return !report.stopped;
       });
   progress.finish();
+  skipped.finish();
+  report.unreadable = skipped.count();
   require_frames(sequence, report);
   return report;
 }

@@ -31,8 +31,8 @@ struct FusionTargets {
 
 /// Decodes each frame with a pose once, in parallel, and fuses it in the order of the frames; the result is
 /// the same at any number of threads. `world_from_camera` has one element for each frame of the sequence. A
-/// frame in the middle whose images cannot be read is reported by progress.warn and left out. InputError
-/// where the sequence has no depth, no frame has a pose, or the first of them cannot be read.
+/// frame whose images cannot be read is reported by progress.warn and left out. InputError where the sequence
+/// has no depth, no frame has a pose, or none of them can be read.
 FusionReport fuse_sequence(const Sequence& sequence,
                            const std::vector<std::optional<WorldFromCamera>>& world_from_camera,
                            const FusionTargets& targets, const Executor& executor, Progress& progress);

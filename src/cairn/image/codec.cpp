@@ -142,13 +142,15 @@ DecodedImage decode_pnm(const fs::path& path, std::string_view bytes) {
   return image;
 }
 
+[[noreturn]] void fail_unknown(const fs::path& path, std::string_view bytes) {
+  fail(path, "a PNG, JPEG, PGM or PPM image", bytes.empty() ? "an empty file" : "another kind of file");
+}
+
 DecodedImage decode(const fs::path& path, bool gray) {
   const std::string bytes = read_file(path);
   if (is_jpeg(bytes)) return decode_jpeg(path, bytes, gray);
   if (is_pnm(bytes)) return decode_pnm(path, bytes);
-  if (!is_png(bytes)) {
-    fail(path, "a PNG, JPEG, PGM or PPM image", bytes.empty() ? "an empty file" : "another kind of file");
-  }
+  if (!is_png(bytes)) fail_unknown(path, bytes);
   DecodedImage image;
   const std::string wrong = decode_png(bytes, image);
   if (!wrong.empty()) fail(path, "a whole PNG image", wrong);
@@ -174,7 +176,52 @@ void write_encoded(const fs::path& path, const Image<Pixel>& image, int channels
   write_file(path, encode_png(raw));
 }
 
+/// Of the first chunk, big-endian.
+ImageSize probe_png(const fs::path& path, std::string_view bytes) {
+  constexpr std::size_t kHeader = 24;
+  constexpr std::size_t kEnd = 12;  // the last chunk: length 0, IEND, checksum
+  const bool is_whole = bytes.size() >= kHeader + kEnd && bytes.rfind("IEND"sv) != std::string_view::npos;
+  if (!is_whole) fail(path, "a whole PNG image", "one that ends early");
+  const auto number = [&](std::size_t begin) {
+    std::int64_t value = 0;
+    for (std::size_t i = begin; i < begin + 4; ++i) value = value << 8 | static_cast<std::uint8_t>(bytes[i]);
+    return value;
+  };
+  expect_sane_size(path, number(16), number(20));
+  return {static_cast<int>(number(16)), static_cast<int>(number(20))};
+}
+
+ImageSize probe_jpeg(const fs::path& path, std::string_view bytes) {
+  const std::unique_ptr<void, int (*)(tjhandle)> decoder(tjInitDecompress(), tjDestroy);
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  ImageSize size;
+  int subsampling = 0, colorspace = 0;
+  if (tjDecompressHeader3(decoder.get(), data, bytes.size(), &size.width, &size.height, &subsampling,
+                          &colorspace) != 0)
+    fail(path, "a JPEG image", tjGetErrorStr2(decoder.get()));
+  if (!has_jpeg_end(bytes)) fail(path, "a whole JPEG image", "one that ends early");
+  expect_sane_size(path, size.width, size.height);
+  return size;
+}
+
+ImageSize probe_pnm(const fs::path& path, std::string_view bytes) {
+  const PnmHeader header = parse_pnm_header(path, bytes);
+  const std::int64_t samples = header.width * header.height * (bytes[1] == '6' ? 3 : 1);
+  const std::int64_t size = samples * (header.maximum > 255 ? 2 : 1);
+  if (static_cast<std::int64_t>(header.sample_bytes.size()) < size)
+    fail(path, fmt::format("{} bytes of pixels", size), fmt::format("{}", header.sample_bytes.size()));
+  return {static_cast<int>(header.width), static_cast<int>(header.height)};
+}
+
 }  // namespace
+
+ImageSize probe_image(const fs::path& path) {
+  const std::string bytes = read_file(path);
+  if (is_jpeg(bytes)) return probe_jpeg(path, bytes);
+  if (is_pnm(bytes)) return probe_pnm(path, bytes);
+  if (!is_png(bytes)) fail_unknown(path, bytes);
+  return probe_png(path, bytes);
+}
 
 GrayImage read_gray(const fs::path& path) {
   const DecodedImage raw = decode(path, true);

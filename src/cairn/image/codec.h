@@ -18,6 +18,15 @@ namespace cairn {
 /// 16-bit single channel (PNG or PGM). An 8-bit or colour image is an InputError: it is no depth image.
 [[nodiscard]] RawDepthImage read_depth(const std::filesystem::path& path);
 
+/// Width and height of an image.
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+/// The size that the file's header says, without decoding. InputError for a file that is missing, empty, of
+/// another format or cut, as far as its beginning and its end tell.
+[[nodiscard]] ImageSize probe_image(const std::filesystem::path& path);
+
 /// PNG files, complete or not there at all (see AtomicFile).
 void write_png(const std::filesystem::path& path, const GrayImage& image);
 void write_png(const std::filesystem::path& path, const RgbImage& image);

@@ -282,6 +282,28 @@ TEST_F(CodecTest, missing_files_and_folders_are_refused_by_name) {
             folder_.string() + ": expected a file, found a folder.\n  Name the file inside it.");
 }
 
+TEST_F(CodecTest, the_size_is_known_without_decoding) {
+  write_png(folder_ / "depth.png", RawDepthImage(300, 20, 700));
+  EXPECT_EQ(probe_image(folder_ / "depth.png"), (ImageSize{300, 20}));
+  EXPECT_EQ(probe_image(file(jpeg_of(smooth_colors(40, 24), TJSAMP_420))), (ImageSize{40, 24}));
+  EXPECT_EQ(probe_image(file("P5 3 2 255\n123456")), (ImageSize{3, 2}));
+  EXPECT_EQ(probe_image(file("P6 2 1 255\n123456")), (ImageSize{2, 1}));
+}
+
+TEST_F(CodecTest, a_cut_file_is_noticed_without_decoding) {
+  write_png(folder_ / "depth.png", RawDepthImage(20, 20, 700));
+  for (const std::string& whole :
+       {read_file(folder_ / "depth.png"), jpeg_of(smooth_colors(24, 24), TJSAMP_420),
+        "P5 3 2 65535\n123456123456"s}) {
+    EXPECT_NO_THROW((void)probe_image(file(whole)));
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, std::size_t{9}, whole.size() / 2, whole.size() - 8})
+      EXPECT_THROW((void)probe_image(file(whole.substr(0, size))), InputError) << size;
+  }
+  EXPECT_THROW((void)probe_image(file("no image")), InputError);
+  EXPECT_THROW((void)probe_image(folder_ / "missing.png"), InputError);
+}
+
 TEST_F(CodecTest, truncated_anywhere_is_an_input_error) {
   write_png(folder_ / "depth.png", RawDepthImage(20, 20, 700));
   for (const std::string& whole :

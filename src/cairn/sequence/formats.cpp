@@ -9,6 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "cairn/sequence/time_unit.h"
 
 namespace cairn {
@@ -20,7 +21,9 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.path().filename().string().starts_with('.')) files.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_naturally_before(a.filename().string(), b.filename().string());
+  });
   return files;
 }
 
@@ -29,6 +32,24 @@ bool is_image_name(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+ImageSize size_of_images(std::span<const fs::path> images) {
+  Progress silent;
+  SkippedFrames unreadable(silent);
+  std::vector<ImageSize> sizes;
+  for (const fs::path& path : images) {
+    try {
+      const ImageSize size = probe_image(path);
+      unreadable.take();
+      if (std::find(sizes.begin(), sizes.end(), size) != sizes.end()) return size;
+      sizes.push_back(size);
+    } catch (const InputError&) {
+      unreadable.skip(std::current_exception());
+    }
+  }
+  unreadable.finish();
+  return sizes.empty() ? ImageSize{} : sizes.front();
 }
 
 std::optional<std::int64_t> parse_frame_number(std::string_view text) {

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "cairn/image/codec.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn {
@@ -33,10 +35,13 @@ void list_euroc(const std::filesystem::path& folder, const SequenceOptions& opti
 [[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);
 void list_numbered(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
-/// What lies in a folder, sorted, hidden files left out.
+/// What lies in a folder in the natural order of the names (2.png before 10.png), hidden files left out.
 [[nodiscard]] std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
 /// By its extension: png, jpg, jpeg, pgm, ppm.
 [[nodiscard]] bool is_image_name(const std::filesystem::path& file);
+/// The size of a camera's images, of which some may be missing, broken or of another size: that of the first
+/// two that agree; where no two do, that of the first that can be read. InputError where none can.
+[[nodiscard]] ImageSize size_of_images(std::span<const std::filesystem::path> images);
 /// Digits only; nothing otherwise.
 [[nodiscard]] std::optional<std::int64_t> parse_frame_number(std::string_view text);
 /// Stamp of file number `number` where the format has no time: number / rate_hz. InputError where that is

@@ -10,13 +10,12 @@
 namespace cairn {
 namespace {
 
-template <class Pixel>
-void expect_size(const Image<Pixel>& image, const Camera& camera, const std::filesystem::path& path) {
-  if (image.width() == camera.width && image.height() == camera.height) return;
+void expect_size(const ImageSize& size, const Camera& camera, const std::filesystem::path& path) {
+  if (size == ImageSize{camera.width, camera.height}) return;
   throw InputError(
       {path.string(), 0,
        fmt::format("an image of {}x{} pixels, as the calibration says", camera.width, camera.height),
-       fmt::format("{}x{}", image.width(), image.height()),
+       fmt::format("{}x{}", size.width, size.height),
        "Give the calibration of these images, by --camera FILE or as camera.yaml in their folder."});
 }
 
@@ -27,7 +26,7 @@ struct CameraView {
 
   template <class ImageType>
   [[nodiscard]] ImageType see(ImageType image, const std::filesystem::path& path) const {
-    expect_size(image, raw, path);
+    expect_size({image.width(), image.height()}, raw, path);
     return rectify ? (*rectify)(image) : std::move(image);
   }
 };
@@ -83,9 +82,18 @@ DepthImage FrameLoader::load_depth(FrameId id) const {
   if (path.empty()) return {};
   const Calibration& calibration = impl_->sequence->calibration;
   const RawDepthImage raw = read_depth(path);
-  expect_size(raw, calibration.depth->camera.value_or(calibration.camera), path);
+  expect_size({raw.width(), raw.height()}, calibration.depth->camera.value_or(calibration.camera), path);
   DepthImage depth = depth_in_metres(raw, calibration.depth->scale, calibration.depth->invalid);
   return impl_->registration ? (*impl_->registration)(depth) : depth;
+}
+
+void FrameLoader::probe(FrameId id) const {
+  const FrameFiles& files = impl_->files(id);
+  const Calibration& calibration = impl_->sequence->calibration;
+  expect_size(probe_image(files.color), impl_->left.raw, files.color);
+  if (!files.right.empty()) expect_size(probe_image(files.right), impl_->right.raw, files.right);
+  if (files.depth.empty()) return;
+  expect_size(probe_image(files.depth), calibration.depth->camera.value_or(calibration.camera), files.depth);
 }
 
 Frame FrameLoader::load(FrameId id) const {

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
-#include "cairn/image/codec.h"
 #include "cairn/sequence/formats.h"
 #include "cairn/sequence/trajectory_file.h"
 
@@ -32,18 +33,64 @@ std::vector<fs::path> images_in(const fs::path& folder) {
   return images;
 }
 
-/// Both cameras need the same file names.
-void expect_pairs(const std::vector<fs::path>& left, const std::vector<fs::path>& right,
-                  const fs::path& folder) {
-  const auto same_name = [](const fs::path& a, const fs::path& b) { return a.filename() == b.filename(); };
-  const auto [l, r] = std::mismatch(left.begin(), left.end(), right.begin(), right.end(), same_name);
-  if (l == left.end() && r == right.end()) return;
-  const bool right_is_missing =
-      r == right.end() || (l != left.end() && *l < folder / "image_0" / r->filename());
-  const fs::path& lone = right_is_missing ? *l : *r;
-  throw InputError({(folder / (right_is_missing ? "image_1" : "image_0") / lone.filename()).string(), 0,
-                    fmt::format("the partner of {}", lone.string()), "no such file",
+/// File names in natural order, each once.
+struct NaturalOrder {
+  bool operator()(const std::string& a, const std::string& b) const { return comes_naturally_before(a, b); }
+};
+using Names = std::set<std::string, NaturalOrder>;
+
+Names names_of(const std::vector<fs::path>& images) {
+  Names names;
+  for (const fs::path& image : images) names.insert(image.filename().string());
+  return names;
+}
+
+/// The first name that only one of the cameras has.
+[[noreturn]] void fail_lone(const Names& left, const Names& right, const fs::path& folder) {
+  Names lone;
+  std::set_symmetric_difference(left.begin(), left.end(), right.begin(), right.end(),
+                                std::inserter(lone, lone.end()), NaturalOrder());
+  const std::string& name = *lone.begin();
+  const char* const has = left.contains(name) ? "image_0" : "image_1";
+  const char* const lacks = left.contains(name) ? "image_1" : "image_0";
+  throw InputError({(folder / lacks / name).string(), 0,
+                    fmt::format("the partner of {}", (folder / has / name).string()), "no such file",
                     "Delete the lone image and its lines in times.txt and poses.txt, or add the other."});
+}
+
+/// The names 000000.png ... of `count` pairs, of which some are missing on disk: where all names there are
+/// positions among them. Nothing otherwise.
+std::optional<Names> names_by_position(const Names& names, std::size_t count) {
+  std::vector<std::string> by_position(count);
+  for (const std::string& name : names) {
+    const auto position = parse_frame_number(fs::path(name).stem().string());
+    if (!position || *position >= static_cast<std::int64_t>(count)) return std::nullopt;
+    std::string& place = by_position[static_cast<std::size_t>(*position)];
+    if (!place.empty()) return std::nullopt;
+    place = name;
+  }
+  const fs::path pattern = *names.begin();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (by_position[i].empty())
+      by_position[i] =
+          fmt::format("{:0{}}{}", i, pattern.stem().string().size(), pattern.extension().string());
+  }
+  return Names(by_position.begin(), by_position.end());
+}
+
+/// The file names of all pairs that times.txt lists. A file that is missing on disk is one that cannot be
+/// read like any other; but where the times do not say that it was there, one does not know which time is
+/// whose.
+Names names_of_pairs(const Names& left, const Names& right, std::size_t times, const fs::path& folder) {
+  Names names = left;
+  names.insert(right.begin(), right.end());
+  if (right.empty()) fail_lone(left, right, folder);
+  if (names.size() == times) return names;
+  if (auto all = names_by_position(names, times); names.size() < times && all) return *all;
+  if (left != right) fail_lone(left, right, folder);
+  throw InputError({(folder / "times.txt").string(), 0,
+                    fmt::format("{} times, one for each image in image_0", left.size()),
+                    fmt::format("{}", times), "Add or delete lines, or images."});
 }
 
 Projection read_projection(const TextFile& file, std::string_view name) {
@@ -82,7 +129,7 @@ void read_rig(const fs::path& path, Calibration& calibration) {
   calibration.baseline = baseline;
 }
 
-std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
+std::vector<std::int64_t> read_times(const fs::path& path) {
   const TextFile file(path);
   std::vector<std::int64_t> stamps;
   for (const TextLine& line : file.lines()) {
@@ -97,9 +144,7 @@ std::vector<std::int64_t> read_times(const fs::path& path, std::size_t images) {
     }
     stamps.push_back(stamp_ns);
   }
-  if (stamps.size() == images) return stamps;
-  throw InputError({path.string(), 0, fmt::format("{} times, one for each image in image_0", images),
-                    fmt::format("{}", stamps.size()), "Add or delete lines, or images."});
+  return stamps;
 }
 
 /// A pose for each image, or poses with stamps of their own.
@@ -120,11 +165,11 @@ Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& sta
   return std::move(file.poses);
 }
 
-void read_calib(const fs::path& path, const fs::path& first_image, Sequence& sequence) {
+void read_calib(const fs::path& path, const std::vector<fs::path>& images, Sequence& sequence) {
   read_rig(path, sequence.calibration);
-  const GrayImage first = read_gray(first_image);
-  sequence.calibration.camera.width = first.width();
-  sequence.calibration.camera.height = first.height();
+  const ImageSize size = size_of_images(images);
+  sequence.calibration.camera.width = size.width;
+  sequence.calibration.camera.height = size.height;
   sequence.calibration_source = path.string();
 }
 
@@ -141,18 +186,23 @@ void list_kitti(const fs::path& folder, Sequence& sequence) {
   if (left.empty()) {
     throw InputError({(folder / "image_0").string(), 0, "PNG or JPEG images", "none", "Check the folder."});
   }
-  expect_pairs(left, right, folder);
-  const auto stamps = read_times(folder / "times.txt", left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    std::int64_t number = 0;
-    if (!parse_integer(left[i].stem().string(), number)) number = static_cast<std::int64_t>(i);
-    sequence.frames.push_back({stamps[i], number, left[i], {}, right[i]});
+  const auto stamps = read_times(folder / "times.txt");
+  const Names left_names = names_of(left), right_names = names_of(right);
+  for (const std::string& name : names_of_pairs(left_names, right_names, stamps.size(), folder)) {
+    if (left_names.contains(name) && right_names.contains(name)) ++sequence.report.associated;
+    const std::size_t i = sequence.frames.size();
+    const auto number = parse_frame_number(fs::path(name).stem().string());
+    sequence.frames.push_back({stamps[i],
+                               number.value_or(static_cast<std::int64_t>(i)),
+                               folder / "image_0" / name,
+                               {},
+                               folder / "image_1" / name});
   }
-  if (sequence.calibration_source.empty()) read_calib(folder / "calib.txt", left[0], sequence);
+  if (sequence.calibration_source.empty()) read_calib(folder / "calib.txt", left, sequence);
   if (fs::exists(folder / "poses.txt"))
     sequence.truth = read_poses(folder / "poses.txt", stamps, sequence.report);
-  sequence.report.color_images = sequence.report.right_images = static_cast<std::int64_t>(left.size());
-  sequence.report.associated = sequence.report.color_images;
+  sequence.report.color_images = static_cast<std::int64_t>(left.size());
+  sequence.report.right_images = static_cast<std::int64_t>(right.size());
 }
 
 }  // namespace cairn

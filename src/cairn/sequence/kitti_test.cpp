@@ -64,6 +64,62 @@ TEST_F(KittiTest, reads_frames_calibration_and_truth) {
   EXPECT_LT((last.world_from_camera * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 0, 5)).norm(), 1e-12);
 }
 
+TEST_F(KittiTest, names_without_leading_zeros_come_in_natural_order) {
+  std::string times;
+  for (const char* camera : {"image_0", "image_1"}) {
+    fs::remove_all(folder_ / camera);
+    fs::create_directories(folder_ / camera);
+    for (int i = 0; i < 12; ++i)
+      write_png(folder_ / camera / (std::to_string(i) + ".png"), GrayImage(8, 6, 90));
+  }
+  for (int i = 0; i < 12; ++i) times += std::to_string(i) + "\n";
+  write("times.txt", times);
+  fs::remove(folder_ / "poses.txt");
+  const Sequence sequence = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(sequence.frames[i].number, static_cast<std::int64_t>(i));
+    EXPECT_EQ(sequence.frames[i].right.filename(), std::to_string(i) + ".png");
+  }
+}
+
+/// times.txt still lists it.
+TEST_F(KittiTest, an_image_missing_on_disk_keeps_its_place) {
+  fs::remove(folder_ / "image_1/000006.png");
+  fs::remove(folder_ / "image_0/000009.png");
+  const Sequence sequence = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), 3U);
+  EXPECT_EQ(sequence.frames[1].number, 6);
+  EXPECT_EQ(sequence.frames[2].stamp_ns, 410'000'000);
+  EXPECT_EQ(sequence.report.associated, 1);
+  EXPECT_NO_THROW((void)FrameLoader(sequence).load({0}));
+  EXPECT_THROW((void)FrameLoader(sequence).load({1}), InputError);
+  EXPECT_THROW((void)FrameLoader(sequence).load({2}), InputError);
+}
+
+TEST_F(KittiTest, a_pair_missing_on_disk_keeps_its_place_where_names_are_positions) {
+  for (const char* camera : {"image_0", "image_1"}) {
+    fs::rename(folder_ / camera / "000005.png", folder_ / camera / "000001.png");
+    fs::rename(folder_ / camera / "000006.png", folder_ / camera / "000002.png");
+    fs::rename(folder_ / camera / "000009.png", folder_ / camera / "000004.png");
+  }
+  fs::remove(folder_ / "poses.txt");
+  write("times.txt", "0\n1\n2\n3\n4\n");
+  const Sequence sequence = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), 5U);
+  EXPECT_EQ(sequence.frames[0].color, folder_ / "image_0/000000.png");
+  EXPECT_EQ(sequence.frames[3].right, folder_ / "image_1/000003.png");
+  EXPECT_EQ(sequence.frames[4].stamp_ns, 4'000'000'000);
+  EXPECT_EQ(sequence.calibration.camera.width, 8);
+}
+
+TEST_F(KittiTest, the_size_is_that_of_the_images_that_can_be_read) {
+  write("image_0/000005.png", "");
+  EXPECT_EQ(open_sequence(folder_).calibration.camera.width, 8);
+  write_png(folder_ / "image_0/000005.png", GrayImage(4, 3, 90));
+  EXPECT_EQ(open_sequence(folder_).calibration.camera.height, 6) << "the first one is the odd one out";
+}
+
 TEST_F(KittiTest, truth_may_be_missing) {
   fs::remove(folder_ / "poses.txt");
   EXPECT_FALSE(open_sequence(folder_).truth);
@@ -93,14 +149,27 @@ std::function<void(const fs::path&)> removal(const char* name) {
 
 const BrokenCase kBrokenFolders[] = {
     {"no right folder", removal("image_1"), "image_1", 0, "a folder with the images of one camera", "none"},
-    {"no right image", removal("image_1/000006.png"), "image_1/000006.png", 0, "the partner of ",
-     "no such file"},
-    {"no left image", removal("image_0/000009.png"), "image_0/000009.png", 0, "the partner of ",
-     "no such file"},
+    {"a right image without time",
+     [](const fs::path& folder) { write_png(folder / "image_1/000007.png", GrayImage(8, 6, 90)); },
+     "image_0/000007.png", 0, "the partner of ", "no such file"},
+    {"a left image without time",
+     [](const fs::path& folder) { write_png(folder / "image_0/000010.png", GrayImage(8, 6, 90)); },
+     "image_1/000010.png", 0, "the partner of ", "no such file"},
+    {"no right images",
+     [](const fs::path& folder) {
+       fs::remove_all(folder / "image_1");
+       fs::create_directories(folder / "image_1");
+     },
+     "image_1/000005.png", 0, "the partner of ", "no such file"},
     {"no times", removal("times.txt"), "times.txt", 0, "a readable file", "No such file or directory"},
     {"no calibration", removal("calib.txt"), "calib.txt", 0, "a readable file", "No such file or directory"},
-    {"broken image", text("image_0/000005.png", "no image"), "image_0/000005.png", 0,
-     "a PNG, JPEG, PGM or PPM image", "another kind of file"},
+    {"no image at all",
+     [](const fs::path& folder) {
+       for (const char* name : {"000005.png", "000006.png", "000009.png"})
+         write_file(folder / "image_0" / name, "no image");
+     },
+     "image_0/000005.png", 0, "a PNG, JPEG, PGM or PPM image",
+     "another kind of file; and none of 3 frames can be read"},
 };
 
 const BrokenCase kBrokenTexts[] = {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "cairn/core/error.h"
-#include "cairn/image/codec.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn {
@@ -70,7 +69,7 @@ void check_parameters(const SequenceOptions& options) {
   }
 }
 
-/// Parameters alone make a calibration, too: without distortion, of the first image's size.
+/// Parameters alone make a calibration, too: without distortion, of the images' size.
 void apply_parameters(const CameraParameters& given, Sequence& sequence) {
   Calibration& calibration = sequence.calibration;
   Camera& camera = calibration.camera;
@@ -80,9 +79,11 @@ void apply_parameters(const CameraParameters& given, Sequence& sequence) {
                       "Give a camera.yaml with both cameras instead (--camera)."});
   }
   if (camera.width == 0 && given.fx && given.fy && given.cx && given.cy && !sequence.frames.empty()) {
-    const GrayImage first = read_gray(sequence.frames.front().color);
-    camera.width = first.width();
-    camera.height = first.height();
+    std::vector<std::filesystem::path> images;
+    for (const FrameFiles& files : sequence.frames) images.push_back(files.color);
+    const ImageSize size = size_of_images(images);
+    camera.width = size.width;
+    camera.height = size.height;
     sequence.calibration_source = "the parameters";
   }
   camera.fx = given.fx.value_or(camera.fx);

@@ -95,6 +95,8 @@ class FrameLoader {
   ~FrameLoader();
   /// InputError for an image that cannot be decoded, or whose size is not the calibration's.
   [[nodiscard]] Frame load(FrameId id) const;
+  /// InputError like load, but decodes nothing: only as far as the beginning and the end of each file tell.
+  void probe(FrameId id) const;
   [[nodiscard]] RgbImage load_color(FrameId id) const;
   [[nodiscard]] DepthImage load_depth(FrameId id) const;
   [[nodiscard]] GrayImage load_right(FrameId id) const;

@@ -3,12 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <optional>
+
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/text.h"
 #include "cairn/image/codec.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sensor_noise.h"
+#include "cairn/sequence/skipped_frames.h"
 
 namespace cairn {
 namespace {
@@ -47,6 +51,24 @@ std::vector<fs::path> write_pair(const fs::path& folder, int i, const GrayImage&
   write_png(written[0], left);
   write_png(written[1], right);
   return written;
+}
+
+/// Nothing, and `failure` the InputError, where it cannot be read.
+std::optional<Frame> try_to_load(const FrameLoader& loader, FrameId id, std::exception_ptr& failure) {
+  try {
+    return loader.load(id);
+  } catch (const InputError&) {
+    failure = std::current_exception();
+    return std::nullopt;
+  }
+}
+
+/// Says which frames were left out, null for those that were not; their number.
+int report_skipped(const std::vector<std::exception_ptr>& failures, Progress& progress) {
+  SkippedFrames skipped(progress);
+  for (const std::exception_ptr& failure : failures) failure ? skipped.skip(failure) : skipped.take();
+  skipped.finish();
+  return static_cast<int>(skipped.count());
 }
 
 void expect_stereo(const Sequence& sequence) {
@@ -91,16 +113,21 @@ RectifiedReport write_rectified(const Sequence& sequence, const fs::path& folder
   const FrameLoader loader(sequence);
   RectifiedReport report;
   const auto count = static_cast<int>(sequence.frames.size());
-  report.frames = write_frames("rectify", count, executor, progress, [&](int i) {
-    const Frame frame = loader.load(FrameId{i});
-    return write_pair(folder, i, frame.gray, frame.right);
+  std::vector<std::exception_ptr> failures(sequence.frames.size());
+  const int done = write_frames("rectify", count, executor, progress, [&](int i) {
+    const auto frame = try_to_load(loader, FrameId{i}, failures[static_cast<std::size_t>(i)]);
+    return frame ? write_pair(folder, i, frame->gray, frame->right) : std::vector<fs::path>();
   });
-  report.stopped = report.frames < count;
+  report.stopped = done < count;
+  failures.resize(static_cast<std::size_t>(done));
+  report.unreadable = report_skipped(failures, progress);
+  report.frames = done - report.unreadable;
   const auto poses =
       sequence.truth ? poses_of_frames(sequence, {}) : std::vector<std::optional<WorldFromCamera>>();
   std::string times;
   Trajectory truth;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(report.frames); ++i) {
+  for (std::size_t i = 0; i < failures.size(); ++i) {
+    if (failures[i]) continue;
     const std::int64_t stamp_ns = sequence.frames[i].stamp_ns;
     times += format_stamp(stamp_ns) + '\n';
     if (!poses.empty() && poses[i]) truth.push_back({stamp_ns, *poses[i]});

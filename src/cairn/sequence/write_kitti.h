@@ -20,13 +20,15 @@ SimulationReport write_kitti(const SimulatedStreet& street, const std::filesyste
 
 /// What was written of a stereo sequence.
 struct RectifiedReport {
-  int frames = 0;          ///< fewer than the sequence has where the user stopped
+  int frames = 0;          ///< fewer than the sequence has where the user stopped or some cannot be read
+  int unreadable = 0;      ///< left out, each with a warning; their numbers are missing in the file names
   bool has_poses = false;  ///< every one of them has a true pose
   bool stopped = false;
 };
 
 /// Writes a stereo sequence as FrameLoader gives it, rectified and grey; poses.txt where every frame has a
-/// true pose. InputError for a sequence that is not stereo and for images that cannot be read.
+/// true pose. Pairs that cannot be read are left out. InputError for a sequence that is not stereo and where
+/// no pair can be read.
 RectifiedReport write_rectified(const Sequence& sequence, const std::filesystem::path& folder,
                                 const Executor& executor, Progress& progress);
 

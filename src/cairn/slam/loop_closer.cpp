@@ -7,6 +7,7 @@
 #include "cairn/slam/essential_graph.h"
 #include "cairn/slam/local_map.h"
 #include "cairn/slam/mapping.h"
+#include "cairn/slam/motion_limit.h"
 #include "cairn/slam/relocalizer.h"
 
 namespace cairn {
@@ -115,24 +116,26 @@ bool LoopCloser::close(KeyframeId keyframe) {
   }
   if (verdict == LoopVerdict::believed) --report_.unconfirmed;  // the one before, which it confirms
   const bool same_part = map_[loop->candidate].part == map_[loop->current].part;
-  if (verdict == LoopVerdict::implausible || (same_part && !bend(*loop))) {
+  if (verdict == LoopVerdict::implausible || !(same_part ? bend(*loop) : join_parts(*loop))) {
     ++report_.rejected;
     return false;
   }
-  if (!same_part) join_parts(*loop);
   edges_.push_back(edge_of(map_, *loop));
   join_landmarks(*loop);
   return true;
 }
 
-/// The younger part moves: the world is where it began.
-void LoopCloser::join_parts(const LoopHypothesis& loop) {
+/// The younger part moves: the world is where it began. False, and nothing is done, where the camera cannot
+/// have come from the one to the other in the time between.
+bool LoopCloser::join_parts(const LoopHypothesis& loop) {
   const std::int32_t part = map_[loop.current].part, into = map_[loop.candidate].part;
   const Rigid3 into_from_part = map_[loop.candidate].world_from_camera * loop.candidate_from_current *
                                 map_[loop.current].world_from_camera.inverse();
+  if (!can_be_joined(map_, into, part, into_from_part, options_)) return false;
   part > into ? move_part(part, into, into_from_part, map_)
               : move_part(into, part, into_from_part.inverse(), map_);
   ++report_.parts_joined;
+  return true;
 }
 
 bool LoopCloser::bend(const LoopHypothesis& loop) {

@@ -40,7 +40,7 @@ class LoopCloser {
   [[nodiscard]] std::vector<KeyframeId> candidates(KeyframeId keyframe) const;
   [[nodiscard]] std::optional<LoopHypothesis> verify(KeyframeId keyframe);
   bool bend(const LoopHypothesis& loop);
-  void join_parts(const LoopHypothesis& loop);
+  [[nodiscard]] bool join_parts(const LoopHypothesis& loop);
   void join_landmarks(const LoopHypothesis& loop);
 
   const SlamOptions& options_;

@@ -113,8 +113,8 @@ const char* to_string(KeyframeDecision decision) {
   return "not matched";
 }
 
-KeyframeDecision decide(const Motion& motion, const SlamOptions& options) {
-  return decide_by_norm(motion, options.keyframe_threshold, options.max_norm);
+KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps) {
+  return decide_by_norm(motion, options.keyframe_threshold, steps * options.max_norm);
 }
 
 KeyframeDecision decide_loop(const Motion& motion, const SlamOptions& options) {

@@ -39,15 +39,15 @@ struct ReferenceView {
 /// What a frame's motion against a keyframe means.
 enum class KeyframeDecision {
   not_matched,  ///< no motion found
-  too_far,      ///< more than max_norm: probably wrong
+  too_far,      ///< max_norm or more: probably wrong, and refused
   too_close,    ///< tracked, but not worth a keyframe
   keyframe,     ///< tracked, and a keyframe
 };
 
 [[nodiscard]] const char* to_string(KeyframeDecision decision);
 
-/// The four outcomes between neighbours, by motion.norm.
-[[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options);
+/// The four outcomes between frames `steps` frame periods apart (see steps_between), by motion.norm.
+[[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps = 1);
 /// The same for views that need not be neighbours: a loop closure, a frame after being lost. max_norm_lp
 /// bounds the motion, and loop_min_inliers and loop_min_inlier_share must be reached or it counts as not
 /// matched.

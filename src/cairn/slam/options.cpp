@@ -46,6 +46,7 @@ void SlamOptions::validate() const {
   check_parameter(is_share(loop_min_inlier_share), "loop_min_inlier_share", "a share from 0 to 1",
                   loop_min_inlier_share);
   check_parameter(is_positive(max_norm), "max_norm", "rad + m above 0", max_norm);
+  check_parameter(frame_period_s >= 0, "frame_period_s", "seconds from 0", frame_period_s);
   check_parameter(is_positive(max_norm_lp), "max_norm_lp", "rad + m above 0", max_norm_lp);
   check_parameter(keyframe_threshold >= 0 && keyframe_threshold < max_norm, "keyframe_threshold",
                   "rad + m from 0 to max_norm", keyframe_threshold);

@@ -45,8 +45,13 @@ struct SlamOptions {
   /// Share of the matches that must be inliers: true motions had more than 0.38 on all recordings tried, at
   /// any speed, chance has less than 0.14.
   double min_inlier_share = 0.15;
-  double max_norm = 10.0;           ///< rad + m between neighbours; more is too far: probably wrong
-  double max_norm_lp = 20.0;        ///< rad + m, the same for loop closures and after being lost
+  /// rad + m between neighbours; a pose that is farther is too far, probably wrong, and refused wherever it
+  /// comes from. Per frame period: where frames are missing or were refused, so many times more.
+  double max_norm = 10.0;
+  /// Seconds between neighbours, which max_norm is for; 0: run_slam takes the sequence's median.
+  double frame_period_s = 0;
+  /// rad + m from the keyframe that a loop closes with, or that a frame is recognised by after being lost.
+  double max_norm_lp = 20.0;
   double keyframe_threshold = 0.1;  ///< rad + m; less is too close to the last keyframe
   int weak_tracking = 80;           ///< inliers; with fewer a keyframe is made before the view is lost
   /// A loop closure, and a pose after being lost, must rest on more: they have no neighbour to contradict

@@ -11,6 +11,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/frontend/frontend.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "cairn/slam/final_poses.h"
 #include "cairn/slam/mapper.h"
 #include "cairn/slam/mapping.h"
@@ -109,6 +110,32 @@ class Run {
   FrameMemory memory_;
 };
 
+/// The options with the median time between neighbours, unless they say another.
+SlamOptions with_frame_period(const SlamOptions& given, const Sequence& sequence) {
+  SlamOptions options = given;
+  std::vector<std::int64_t> periods;
+  for (std::size_t i = 1; i < sequence.frames.size(); ++i)
+    periods.push_back(sequence.frames[i].stamp_ns - sequence.frames[i - 1].stamp_ns);
+  if (given.frame_period_s > 0 || periods.empty()) return options;
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  options.frame_period_s = 1e-9 * static_cast<double>(*middle);
+  return options;
+}
+
+/// Frames that would have been tracked, were it not for max_norm.
+void warn_of_refused(const SlamResult& result, const SlamOptions& options, Progress& progress) {
+  const auto refused = std::count_if(result.frames.begin(), result.frames.end(), [](const FrameTrack& track) {
+    return !track.tracked() && track.decision == KeyframeDecision::too_far;
+  });
+  if (refused == 0) return;
+  progress.warn(
+      fmt::format("{} of {} frames moved further than max_norm = {:g} (rad + m) allows between neighbours "
+                  "and were refused. Give "
+                  "a larger max_norm where the camera is that fast.",
+                  refused, result.frames.size(), options.max_norm));
+}
+
 MapHeader map_header(const Sequence& sequence, const SlamOptions& options) {
   MapHeader header;
   header.rig = rig_of(sequence.calibration, options.observer.depth_noise);
@@ -151,10 +178,11 @@ Trajectory SlamResult::keyframe_trajectory() const {
   return trajectory;
 }
 
-SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const Executor& executor,
+SlamResult run_slam(const Sequence& sequence, const SlamOptions& given, const Executor& executor,
                     Progress& progress, std::optional<Map> start) {
-  options.validate();
+  given.validate();
   require_depth(sequence);
+  const SlamOptions options = with_frame_period(given, sequence);
   const Rig rig = rig_of(sequence.calibration, options.observer.depth_noise);
   SlamResult result;
   if (start) {
@@ -165,17 +193,16 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
   Run run(options, executor, result);
   const Frontend frontend(sequence, options.observer);
+  SkippedFrames skipped(progress);
 
   const auto take = [&](std::size_t index, Arrival&& arrival) {
     result.times.decode.push_back(arrival.decode_seconds);
     result.times.features.push_back(arrival.feature_seconds);
     if (arrival.error.empty()) {
+      skipped.take();
       run.take(std::move(arrival.observed));
     } else {
-      if (result.frames.empty())
-        std::rethrow_exception(arrival.failure);  // from the start: not one frame, all
-      progress.warn(arrival.error + " The frame is skipped.");
-      result.unreadable.push_back(arrival.error);
+      skipped.skip(arrival.failure);
     }
     progress.update(static_cast<std::int64_t>(index) + 1);
     result.stopped = progress.stop_requested() && index + 1 < sequence.frames.size();
@@ -184,7 +211,10 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& options, const 
   progress.start("tracking", static_cast<std::int64_t>(sequence.frames.size()), "frames");
   executor.ordered_pipeline<Arrival>(sequence.frames.size(), std::cref(frontend), take);
   progress.finish();
+  skipped.finish();
+  result.unreadable = skipped.messages();
   run.finish();
+  warn_of_refused(result, options, progress);
   return result;
 }
 

@@ -38,7 +38,7 @@ struct SlamResult {
 };
 
 /// SLAM with an RGB-D or stereo sequence: observe, track, map, close loops, adjust. A frame that cannot be
-/// decoded is reported and skipped, but for the first, which is an InputError. The same bits at any number of
+/// decoded is reported and skipped; where none can, that is an InputError. The same bits at any number of
 /// threads. InputError for a sequence without depth or right images and for options out of range. With a
 /// `start` map, of an earlier run, the camera is looked for in it, and the map goes on growing; its keyframes
 /// have no frame in this sequence (FrameId not valid). InputError where it was made with another camera or

@@ -93,7 +93,33 @@ TEST_F(SlamTest, skips_a_frame_that_cannot_be_decoded) {
   EXPECT_EQ(result.trajectory().size(), static_cast<std::size_t>(kFrames - 1));
 }
 
-TEST_F(SlamTest, refuses_a_sequence_whose_first_frame_cannot_be_decoded) {
+TEST_F(SlamTest, skips_the_first_frames_where_they_cannot_be_decoded) {
+  Sequence sequence = open_sequence(folder_);
+  const fs::path empty = folder_ / "empty.png";
+  write_file(empty, "");
+  sequence.frames[0].color = empty;
+  sequence.frames[1].depth = folder_ / "missing.png";
+  const SlamResult result = run(sequence);
+  EXPECT_EQ(result.unreadable.size(), 2U);
+  EXPECT_EQ(result.trajectory().size(), static_cast<std::size_t>(kFrames - 2));
+  EXPECT_EQ(result.trajectory().front().stamp_ns, sequence.frames[2].stamp_ns);
+}
+
+TEST_F(SlamTest, frames_that_move_by_max_norm_or_more_are_refused) {
+  struct Listener : Progress {
+    void warn(const std::string& message) override { heard += message; }
+    std::string heard;
+  } listener;
+  SlamOptions options;
+  options.max_norm = 0.004;  // 0.4 m/s at 30 Hz are 0.013 m
+  options.keyframe_threshold = 0.001;
+  const SlamResult result = run_slam(open_sequence(folder_), options, Executor(2), listener);
+  EXPECT_LE(result.trajectory().size(), 1U);
+  EXPECT_EQ(result.frames[1].decision, KeyframeDecision::too_far);
+  EXPECT_NE(listener.heard.find("max_norm = 0.004"), std::string::npos) << listener.heard;
+}
+
+TEST_F(SlamTest, refuses_a_sequence_of_which_no_frame_can_be_decoded) {
   Sequence sequence = open_sequence(folder_);
   sequence.calibration.camera.width = 160;
   EXPECT_THROW((void)run(sequence), InputError);

@@ -69,7 +69,7 @@ std::optional<TrackedFrame> Tracker::match_last(const ObservedFrame& frame, Fram
   std::vector<Eigen::Vector3d> points = points_shown(map_, observed_, last_);
   for (Eigen::Vector3d& point : points) point = last_from_world * point;
   const Motion motion = estimate_motion(map_.rig(), {observed_, points}, frame, options_);
-  track.decision = decide(motion, options_);
+  track.decision = decide(motion, options_, steps_between(observed_.stamp_ns, frame.stamp_ns, options_));
   track.matches = motion.matches;
   track.inliers = motion.inliers;
   if (track.decision == KeyframeDecision::not_matched || track.decision == KeyframeDecision::too_far)
@@ -96,9 +96,19 @@ std::optional<TrackedFrame> Tracker::follow(const ObservedFrame& frame, FrameTra
   return current;
 }
 
+/// False, and why in `track`, for a pose that the camera cannot have come to.
+bool Tracker::admit(const ObservedFrame& frame, const TrackedFrame& current, KeyframeId reference,
+                    FrameTrack& track) const {
+  if (known_.allow(map_, reference, current.world_from_camera, frame.stamp_ns, options_)) return true;
+  track.decision = KeyframeDecision::too_far;
+  track.matches = current.matches;
+  track.inliers = current.inliers;
+  return false;
+}
+
 std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, FrameTrack& track) {
   auto found = relocalize(map_, places_, frame, options_, executor_);
-  if (!found) return std::nullopt;
+  if (!found || !admit(frame, found->tracked, found->keyframe, track)) return std::nullopt;
   track.relocalized = lost_;
   reference_ = found->keyframe;
   return std::move(found->tracked);
@@ -131,6 +141,7 @@ void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& 
   track.reference = reference_;
   reference_from_last_ = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
   track.reference_from_frame = reference_from_last_;
+  known_.remember(map_, reference_, reference_from_last_, frame.stamp_ns);
   observed_ = std::move(frame);
   last_ = std::move(current);
 }
@@ -141,6 +152,7 @@ FrameTrack Tracker::track(ObservedFrame&& frame) {
   if (!lost_) {
     current = follow(frame, track);
     if (current) (void)refine_in_map(map_, frame, options_, *current);
+    if (current && !admit(frame, *current, reference_, track)) current.reset();
   }
   if (!current) {
     lost_ = true;
@@ -163,6 +175,7 @@ void Tracker::refer_to(KeyframeId keyframe) {
   }
   lost_ = false;
   reference_from_last_ = {};
+  known_.remember(map_, keyframe, {}, observed_.stamp_ns);
   follow_map();
 }
 

@@ -5,6 +5,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/features/place_index.h"
+#include "cairn/slam/motion_limit.h"
 #include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
@@ -26,7 +27,8 @@ struct FrameTrack {
 
 /// Follows the camera through the map: predicts the pose by the last motion, finds in the image what the last
 /// frame showed, then what the map around it holds, and solves for the pose of the camera. Falls back to
-/// matching without prediction, then to relocalisation. It reads the map and never writes it. Deterministic.
+/// matching without prediction, then to relocalisation. A pose too far from the last one known (max_norm) is
+/// refused, whichever of them found it. It reads the map and never writes it. Deterministic.
 class Tracker {
  public:
   Tracker(const SlamOptions& options, const Executor& executor, const Map& map, const PlaceIndex& places);
@@ -49,6 +51,8 @@ class Tracker {
   [[nodiscard]] std::optional<TrackedFrame> match_last(const ObservedFrame& frame, FrameTrack& track) const;
   [[nodiscard]] std::optional<TrackedFrame> follow(const ObservedFrame& frame, FrameTrack& track) const;
   [[nodiscard]] std::optional<TrackedFrame> find_again(const ObservedFrame& frame, FrameTrack& track);
+  [[nodiscard]] bool admit(const ObservedFrame& frame, const TrackedFrame& current, KeyframeId reference,
+                           FrameTrack& track) const;
   [[nodiscard]] SearchTargets targets_of_last(const FrameView& view, double radius_px) const;
   [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const;
   void refer_to_best(const TrackedFrame& current);
@@ -63,6 +67,7 @@ class Tracker {
   TrackedFrame last_;
   Rigid3 reference_from_last_;
   Rigid3 current_from_last_;  // the last motion, with which the next one is predicted
+  KnownPoses known_;
   bool motion_known_ = false;
   bool lost_ = true;
 };

@@ -82,6 +82,36 @@ TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
   EXPECT_FALSE(track(test::aside(0.45)).relocalized);
 }
 
+TEST_F(TrackerTest, a_motion_of_max_norm_or_more_is_refused_by_whatever_way_it_is_found) {
+  options_.max_norm = 0.15;
+  ASSERT_TRUE(track(test::aside(0.1)).tracked());
+  const FrameTrack far = track(test::aside(0.3));  // by the last motion, by the map, and by relocalisation
+  EXPECT_FALSE(far.tracked());
+  EXPECT_EQ(far.decision, KeyframeDecision::too_far);
+  EXPECT_GT(far.inliers, 100) << "that it was seen well is known";
+  EXPECT_TRUE(tracker_.lost());
+  EXPECT_FALSE(track(test::aside(0.5)).tracked()) << "nor by being lost before";
+  EXPECT_TRUE(track(test::aside(0.2)).tracked()) << "back where it may be";
+}
+
+TEST_F(TrackerTest, a_refused_frame_counts_as_a_step) {
+  options_.max_norm = 0.15;
+  options_.frame_period_s = 0.033;
+  ASSERT_TRUE(track(test::aside(0.1)).tracked());
+  EXPECT_FALSE(track(test::aside(0.35)).tracked());
+  const FrameTrack again = track(test::aside(0.35));  // two steps of 0.125
+  EXPECT_TRUE(again.tracked());
+  EXPECT_TRUE(again.relocalized);
+  for (int k = 1; k <= 5; ++k) EXPECT_EQ(track(test::aside(0.35 + 0.16 * k)).tracked(), false) << k;
+}
+
+TEST_F(TrackerTest, after_being_lost_max_norm_lp_holds_from_the_keyframe) {
+  options_.max_norm_lp = 0.3;
+  (void)track_nothing();
+  EXPECT_FALSE(track(test::aside(0.4)).tracked());
+  EXPECT_TRUE(track(test::aside(0.2)).tracked());
+}
+
 TEST_F(TrackerTest, moves_with_the_map) {
   (void)track(test::aside(0.05));
   const Rigid3 moved{rotation_exp({0, 0.8, 0}), {1, 2, 3}};

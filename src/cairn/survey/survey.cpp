@@ -9,6 +9,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/frontend/frontend.h"
+#include "cairn/sequence/skipped_frames.h"
 #include "cairn/survey/checkpoint.h"
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/identity.h"
@@ -146,6 +147,7 @@ class Run {
     for (std::size_t i = first; i < input_.sequence.frames.size(); ++i) {
       if (input_.poses.frames[i]) todo.push_back(i);
     }
+    if (surveyor_->state().counts.frames > 0) skipped_.take();  // in the run that this one goes on with
     surveyor_->state().counts.without_pose = static_cast<std::int64_t>(input_.poses.without_pose);
     const auto all = static_cast<std::int64_t>(input_.sequence.frames.size());
     progress_.start("mapping", all, "frames");
@@ -153,6 +155,7 @@ class Run {
         todo.size(), [&](std::size_t k) { return frontend_(todo[k]); },
         [&](std::size_t k, Arrival&& arrival) { return take(todo[k], arrival); });
     progress_.finish();
+    skipped_.finish();
   }
 
   /// One frame; false to stop after it.
@@ -162,8 +165,9 @@ class Run {
     SurveyState& state = surveyor_->state();
     if (arrival.failure) {
       ++state.counts.unreadable;
-      progress_.warn(arrival.error);
+      skipped_.skip(arrival.failure);
     } else {
+      skipped_.take();
       surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
     }
     state.next_in_sequence = index + 1;
@@ -212,6 +216,7 @@ class Run {
   const std::filesystem::path& folder_;
   const Executor& executor_;
   Progress& progress_;
+  SkippedFrames skipped_{progress_};
   std::uint32_t identity_;
   Rig rig_;
   Frontend frontend_;
