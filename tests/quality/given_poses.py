@@ -9,7 +9,7 @@ import program
 import receivers
 
 CALIBRATION = (1242, 375, 721.5377, 609.5593, 172.854, 387.5744 / 721.5377)  # of drive 0039: its calib.txt
-FRAMES = os.environ.get("CAIRN_DRIVE_FRAMES", "0:40")  # of 200; "0:200" for the whole drive
+FRAMES = os.environ.get("CAIRN_DRIVE_FRAMES", "0:30")  # of 200; "0:200" for the whole drive
 PLACE_STD, ANGLE_STD_DEG = (0.02, 0.03, 0.05), (0.03, 0.04, 0.1)
 # Places differ by what 14 digits of a latitude leave, 1e-8 m, but a landmark that lies on the limit of a rule may fall in one map alone.
 SAME_PLACE_M, SAME_SHARE = 1e-3, 0.995
@@ -25,7 +25,7 @@ class Receivers(program.Quality):
 
     def map(self, name, poses, *options, axes="frd"):
         figures = self.figures("map", self.sequence, "--camera", f"{axes}.yaml", "--poses", poses, "--frames", FRAMES, "-o", name, *options)
-        self.assertGreater(figures["landmarks"], 5000)
+        self.assertGreater(figures["landmarks"], 3000)
         self.assertEqual(figures["pose_check"]["verdict"], "agreement")
         return receivers.read_landmarks(self.folder / name)
 
@@ -94,14 +94,15 @@ class Receivers(program.Quality):
 class Limits(program.Quality):
     """Every landmark of a map holds against every limit, merged ones too."""
 
-    LIMITS = {"clean.max_rms_px": 1.0, "clean.min_frames": 4, "clean.depth.max": 40, "clean.depth.max_std": 6, "clean.distance.max_mean": 35,
+    EAGER = ("--set", "clean.duplicate_sigmas=8")  # to merge what hardly belongs together
+    LIMITS = {"clean.max_rms_px": 0.7, "clean.min_frames": 4, "clean.depth.max": 40, "clean.depth.max_std": 6, "clean.distance.max_mean": 35,
               "clean.lateral.max": 20, "clean.angle_deg.max": 35, "clean.angle_deg.max_std": 6}
 
     def test_each_row_of_the_table(self):
         sequence = program.recordings() / "stereo/kitti_0039"
         settings = [word for name, value in self.LIMITS.items() for word in ("--set", f"{name}={value}")]
-        figures = self.figures("map", sequence, "--frames", FRAMES, "-o", "map", *settings)
-        self.assertGreater(figures["merged"], 50)
+        figures = self.figures("map", sequence, "--frames", FRAMES, "-o", "map", *settings, *self.EAGER)
+        self.assertGreater(figures["merged"], 10)
         with open(self.folder / "map/uvlist.txt", encoding="ascii") as table:
             names = table.readline().split()[1:]
             rows = [dict(zip(names, map(float, row))) for row in csv.reader(table, delimiter=" ")]

@@ -71,10 +71,13 @@ std::string likely_cause(const SurveyResult& result, const SurveyOptions& option
     return fmt::format(
         "None of {} features has a depth: look at the baseline, or at the depth's scale, in the calibration.",
         counts.features);
+  // Of a good drive, too, most tracks are short: they say something only if hardly one became a landmark.
+  constexpr std::int64_t kHardlyOne = 10;
+  const std::int64_t made = sum_of(counts.cleaned);
   const auto worst = std::max_element(counts.cleaned.begin(), counts.cleaned.end());
-  if (*worst > 0 && *worst >= std::max(counts.too_short, counts.contradictory)) {
+  if (made > 0 && made >= counts.contradictory && kHardlyOne * made >= counts.tracks) {
     const auto rule = static_cast<CleaningRule>(worst - counts.cleaned.begin());
-    return fmt::format("Most landmarks, {} of {}, fell to {}.", *worst, sum_of(counts.cleaned),
+    return fmt::format("Most landmarks, {} of {}, fell to {}.", *worst, made,
                        describe_rule(rule, options.cleaning)) +
            describe_poses(result);
   }

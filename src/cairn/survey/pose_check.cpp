@@ -206,9 +206,9 @@ PoseCheck check_poses(const Sequence& sequence, const GivenPoses& poses, const O
   fill_figures(motions, given, check);
   const Disagreement as_given = disagreement(probe.rig(), motions, given);
   check.error_px = as_given.error_px;
-  constexpr double kSuspicious = 0.5, kContradicts = 1;
+  constexpr double kSuspicious = 0.1, kSuspiciousPx = 4, kContradicts = 0.5;
   check.verdict = as_given.share < kContradicts ? PoseVerdict::agreement : PoseVerdict::contradiction;
-  if (as_given.share >= kSuspicious)
+  if (as_given.share >= kSuspicious && as_given.error_px >= kSuspiciousPx)
     look_for_reading(probe.rig(), motions, as_given.share, other_readings(sequence, poses), check);
   return check;
 }
