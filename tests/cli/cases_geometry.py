@@ -64,7 +64,7 @@ CASES = [
          given=(A, B, SMALL_DEPTH), says=("small.png", "64x48", "8x8")),
     Case("sigma that is no number", f"two-view a.png b.png {CAMERA} --sigma nan", given=(A, B), says=("nan",)),
 
-    Case("pose", PNP, given=GOOD, code=0, prints=("20 of 20 points agree", "world to", "std rotation")),
+    Case("pose", PNP, given=GOOD, code=0, prints=("20 of 20 points agree", "world to", "std rotation", "by the noise of pixels alone", "the points count as exact")),
     Case("pose with a trace", f"{PNP} --trace --kernel cauchy", given=GOOD, code=0, prints=("iteration", "lambda")),
     Case("pose as JSON", f"{PNP} --json", given=GOOD, code=0, prints=('"camera_from_world"', '"covariance"', '"trace"')),
     Case("pose from the identity", f"{PNP} --start identity --method gauss-newton", given=GOOD, code=0, prints=("20 used of 20",)),

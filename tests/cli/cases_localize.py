@@ -19,6 +19,8 @@ def damaged(what, name, says):
 
 CASES = [
     Case("images of elsewhere", RUN, (NOT_FOUND,), (MAP, SEQ), code=1, leaves=("run", *LEFT)),
+    Case("nothing is said of precision if nothing is found", RUN + " --json", (NOT_FOUND,), (MAP, SEQ), code=1, leaves=("run", *LEFT),
+         prints=('"median_inliers": null', '"median_std_m": null', '"median_protection_m": null', '"stamps": "times"')),
     Case("one image", "localize map image.png -o run --quiet", ("none of 1 images",), (MAP, file("image.png", png_bytes())), code=1,
          leaves=("run", *LEFT)),
     Case("a folder of images", "localize map images -o run --quiet", ("none of 2 images",),

@@ -85,7 +85,7 @@ VERSION_REMEDY = "Make the map again, or read it with the version of cairn that 
 REMEDY = "Copy the map again from where it was made, or make it again."
 
 CASES = [
-    Case("a good map", "info map", given=(MAP,), code=0, prints=FIGURES),
+    Case("a good map", "info map", given=(MAP,), code=0, prints=(*FIGURES, "know the noise of observations")),
     Case("map of a run", "info run", given=(map_folder("run/map"),), code=0, prints=FIGURES),
     Case("a good map as JSON", "info map --json", given=(MAP,), code=0, prints=('"landmarks": 1', '"parts": [\n    1,\n    1\n  ]')),
     Case("indicators as JSON", "info map --json", given=(MAP,), code=0,
