@@ -68,7 +68,8 @@ std::vector<PosePair> read_pairs(const AlignArguments& arguments) {
   const Trajectory &estimate = compared.estimates[0], &reference = compared.reference;
   std::vector<PosePair> pairs = pair_poses(estimate, reference, arguments.max_gap_s);
   if (pairs.empty())
-    fmt::print(stderr, "cairn: {}\n", explain_no_pairs(estimate, reference, arguments.max_gap_s));
+    fmt::print(stderr, "cairn: {}\n",
+               explain_no_pairs(estimate, reference, arguments.max_gap_s, compared.start_offsets_ns[0]));
   return pairs;
 }
 

@@ -12,7 +12,6 @@
 #include "cairn/sequence/formats.h"
 #include "cairn/sequence/trajectory_file.h"
 #include "common.h"
-#include "trajectory_inputs.h"
 
 namespace cairn::app {
 namespace {
@@ -56,6 +55,7 @@ TrajectoryFile truth_of(const Sequence& sequence) {
   TrajectoryFile file;
   if (sequence.truth && !sequence.truth->empty()) {
     file.poses = *sequence.truth;
+    file.first_key = file.poses.front().stamp_ns;
     return file;
   }
   if (const auto oxts = oxts_in(sequence.folder)) return read_file(*oxts, {});
@@ -77,7 +77,7 @@ Reference read_reference(const std::string& path, const std::string& camera) {
   print_warnings(sequence.report.warnings);
   reference.named.file = truth_of(sequence);
   reference.is_sequence = true;
-  reference.has_clock = sequence.format == "TUM" || sequence.format == "EuRoC";
+  reference.has_clock = has_clock(sequence);
   for (const FrameFiles& frame : sequence.frames) {
     reference.numbers.push_back(frame.number);
     reference.stamps.push_back(frame.stamp_ns);
@@ -98,6 +98,7 @@ void count_as_seconds(NamedFile& named) {
 
 void take_stamps_by_position(const Trajectory& from, TrajectoryFile& file) {
   for (std::size_t i = 0; i < from.size(); ++i) file.poses[i].stamp_ns = from[i].stamp_ns;
+  file.first_key = from.front().stamp_ns;
   file.key = PoseKey::stamp;
 }
 
@@ -145,17 +146,22 @@ void stamp_like_reference(const Reference& reference, NamedFile& estimate) {
     file.poses[i].stamp_ns = static_cast<std::int64_t>(i) * kSecondNs;
 }
 
-void shift(const StampOffset& offset, const Trajectory& reference, const std::string& path,
-           Trajectory& estimate) {
-  const std::int64_t offset_ns =
-      offset.is_start() ? offset_of_starts(estimate, reference) : std::llround(1e9 * offset.seconds());
-  for (StampedPose& pose : estimate) {
+/// From the first stamp of the estimate's file to that of the reference's; 0 if that is no number of
+/// nanoseconds.
+std::int64_t offset_of_starts(const TrajectoryFile& estimate, const TrajectoryFile& reference) {
+  std::int64_t offset_ns = 0;
+  return __builtin_sub_overflow(reference.first_key, estimate.first_key, &offset_ns) ? 0 : offset_ns;
+}
+
+void shift(const StampOffset& offset, std::int64_t start_offset_ns, NamedFile& estimate) {
+  const std::int64_t offset_ns = offset.is_start() ? start_offset_ns : std::llround(1e9 * offset.seconds());
+  for (StampedPose& pose : estimate.file.poses) {
     if (!__builtin_add_overflow(pose.stamp_ns, offset_ns, &pose.stamp_ns)) continue;
     throw InputError({"--offset", 0, "an offset that leaves the stamps within 292 years of 1970", offset.text,
                       "Correct the value."});
   }
   if (offset.is_start())
-    print_warnings({fmt::format("{}: the first stamps are aligned by an offset of {} s.", path,
+    print_warnings({fmt::format("{}: the first stamps are aligned by an offset of {} s.", estimate.path,
                                 format_seconds(offset_ns))});
 }
 
@@ -174,8 +180,8 @@ ComparedTrajectories read_compared(const ComparedPaths& paths) {
   for (NamedFile& estimate : estimates) {
     const bool has_stamps = estimate.file.key == PoseKey::stamp;
     stamp_like_reference(reference, estimate);
-    if (has_stamps && compared.has_times)
-      shift(paths.offset, reference.named.file.poses, estimate.path, estimate.file.poses);
+    compared.start_offsets_ns.push_back(offset_of_starts(estimate.file, reference.named.file));
+    if (has_stamps && compared.has_times) shift(paths.offset, compared.start_offsets_ns.back(), estimate);
     compared.estimates.push_back(std::move(estimate.file.poses));
   }
   if (!compared.has_times) count_as_seconds(reference.named);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct ComparedPaths {
 struct ComparedTrajectories {
   std::vector<Trajectory> estimates;
   Trajectory reference;
+  /// What makes the first stamps of an estimate's file and of the reference's agree if it is added to the
+  /// estimate's, whatever --offset says.
+  std::vector<std::int64_t> start_offsets_ns;
   bool has_times = true;  ///< false: no file says a time, and stamps are positions or numbers, as seconds
 };
 

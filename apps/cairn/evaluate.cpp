@@ -129,7 +129,7 @@ void check_queries(const EvaluateArguments& arguments, const Evaluated& evaluate
 }
 
 Evaluations evaluate(const EvaluateArguments& arguments, const ComparedTrajectories& compared) {
-  Evaluations evaluations{arguments, compared.reference, {}};
+  Evaluations evaluations{arguments, compared.reference, {}, compared.start_offsets_ns};
   for (std::size_t i = 0; i < compared.estimates.size(); ++i)
     evaluations.estimates.push_back({arguments.estimates[i], compared.estimates[i], {}});
   for (auto& [path, estimate, result] : evaluations.estimates)

@@ -190,8 +190,10 @@ void print_doubts(const Evaluations& evaluations, const Evaluated& evaluated) {
   const auto& [path, estimate, result] = evaluated;
   const std::string name = evaluations.estimates.size() > 1 ? short_name(path) + ": " : "";
   if (result.status == EvaluationStatus::no_pairs) {
+    const auto index = static_cast<std::size_t>(&evaluated - evaluations.estimates.data());
     fmt::print(stderr, "cairn: {}{}\n", name,
-               explain_no_pairs(estimate, evaluations.reference, arguments.options.max_gap_s));
+               explain_no_pairs(estimate, evaluations.reference, arguments.options.max_gap_s,
+                                evaluations.start_offsets_ns.at(index)));
   } else if (result.status == EvaluationStatus::not_alignable) {
     fmt::print(stderr, "cairn: {}no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
                name, arguments.align, result.pairs.size(), explain(result.absolute.status));

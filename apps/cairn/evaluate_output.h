@@ -37,6 +37,8 @@ struct Evaluations {
   const EvaluateArguments& arguments;
   const Trajectory& reference;
   std::vector<Evaluated> estimates;  ///< in the order of the command line
+  /// For each estimate: ComparedTrajectories::start_offsets_ns.
+  std::vector<std::int64_t> start_offsets_ns = {};
 };
 
 /// On stdout: all figures of one estimate, or a row for each of several.

@@ -22,21 +22,14 @@ std::string time_range(const Trajectory& trajectory) {
 
 }  // namespace
 
-std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference, double max_gap_s) {
+std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference, double max_gap_s,
+                             std::int64_t start_offset_ns) {
   return fmt::format(
       "no pose of EST is within {} s of a pose of REF.\n  EST {}\n  REF {}\n"
       "  If the times overlap, raise --max-gap; if only the clocks differ, add --offset {}, or --offset "
       "start, "
       "which align\n  the first stamps; else the files do not belong together.",
-      max_gap_s, time_range(estimate), time_range(reference),
-      format_seconds(offset_of_starts(estimate, reference)));
-}
-
-std::int64_t offset_of_starts(const Trajectory& estimate, const Trajectory& reference) {
-  std::int64_t offset_ns = 0;
-  const bool is_too_far =
-      __builtin_sub_overflow(reference.front().stamp_ns, estimate.front().stamp_ns, &offset_ns);
-  return is_too_far ? 0 : offset_ns;
+      max_gap_s, time_range(estimate), time_range(reference), format_seconds(start_offset_ns));
 }
 
 std::string_view explain(AlignmentStatus status) {

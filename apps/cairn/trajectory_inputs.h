@@ -13,11 +13,10 @@ namespace cairn::app {
 
 /// What the commands that compare trajectories share.
 
-/// Why no two poses are near in time, and what to do; some lines for stderr.
+/// Why no two poses are near in time, and what to do; some lines for stderr. `start_offset_ns` makes the
+/// first stamps of their files agree if it is added to the estimate's.
 [[nodiscard]] std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& reference,
-                                           double max_gap_s);
-/// What makes the first stamps agree if it is added to the estimate's, nanoseconds.
-[[nodiscard]] std::int64_t offset_of_starts(const Trajectory& estimate, const Trajectory& reference);
+                                           double max_gap_s, std::int64_t start_offset_ns);
 /// Why there is no alignment; part of a sentence, empty for ok.
 [[nodiscard]] std::string_view explain(AlignmentStatus status);
 /// The same in one word, for JSON.

@@ -70,6 +70,10 @@ std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
   return std::llround(stamp_ns);
 }
 
+bool has_clock(const Sequence& sequence) {
+  return sequence.format == "TUM" || sequence.format == "EuRoC";
+}
+
 bool has_frame_numbers(const fs::path& path) {
   const TextFile file(path);
   std::vector<std::string_view> first;

@@ -48,6 +48,10 @@ void list_numbered(const std::filesystem::path& folder, const SequenceOptions& o
 /// more than an int64 of nanoseconds holds.
 [[nodiscard]] std::int64_t stamp_of_number(std::int64_t number, double rate_hz);
 
+/// Whether the frames' stamps are those of a clock. Elsewhere frames and the sequence's own poses have the
+/// same stamps, made from numbers.
+[[nodiscard]] bool has_clock(const Sequence& sequence);
+
 /// Reads the true poses of a sequence, of any format with stamps (docs/poses.md), as the file states them.
 /// Warnings go to the report. InputError for poses without stamps, and for those of a body unless
 /// `is_of_body`.

@@ -41,6 +41,7 @@ TrajectoryFile read_trajectory_file(const fs::path& path, const TrajectoryFileOp
     move_to_origin(*file.origin, recorded);
   }
   file.key = recorded.key;
+  file.first_key = recorded.first_key.value_or(recorded.poses.front().key);
   file.is_of_body = recorded.subject != PoseSubject::camera && recorded.subject != PoseSubject::not_stated;
   file.format = recorded.format;
   file.warnings = recorded.warnings;
@@ -77,6 +78,7 @@ void stamp_by_frames(const fs::path& path, const std::vector<std::int64_t>& numb
                       "Check that the poses belong to this sequence."});
   }
   file.poses = std::move(stamped);
+  file.first_key = file.poses.front().stamp_ns;
   file.key = PoseKey::stamp;
 }
 

@@ -28,6 +28,8 @@ struct TrajectoryFile {
   /// `stamp_ns` is the key: nanoseconds, or the number or position as it is.
   Trajectory poses;
   PoseKey key = PoseKey::stamp;
+  /// The key of the file's first row, be it one that was left out as the receiver had no fix yet.
+  std::int64_t first_key = 0;
   bool is_of_body = false;  ///< the format says that its poses are of a body, not of a camera
   std::string format;       ///< "TUM", "KITTI", "EuRoC", "OXTS", "table"
   std::optional<GeodeticOrigin> origin;

@@ -51,6 +51,14 @@ TEST_F(TrajectoryFileTest, geodetic_poses_become_metres_about_the_origin) {
   EXPECT_NEAR(read_trajectory_file(path, options).poses[1].world_from_camera.translation.z(), 13, 1e-6);
 }
 
+TEST_F(TrajectoryFileTest, the_first_row_counts_though_it_has_no_fix) {
+  const TrajectoryFile file = read_trajectory_file(
+      write("t.csv", "time,lat,lon,height,roll,pitch,heading\n5,0,0,0,0,0,0\n6,49,8,103,0,0,0\n"));
+  EXPECT_EQ(file.first_key, 5'000'000'000);
+  EXPECT_EQ(file.poses[0].stamp_ns, 6'000'000'000);
+  EXPECT_EQ(file.warnings.size(), 1U);
+}
+
 TEST_F(TrajectoryFileTest, whole_numbers_are_frames_where_they_may_be) {
   const auto path = write("p.txt", "3 7 0 0 0 0 0 1\n5 8 0 0 0 0 0 1\n");
   EXPECT_EQ(read_trajectory_file(path).poses[1].stamp_ns, 5'000'000'000);
