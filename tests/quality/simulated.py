@@ -90,7 +90,7 @@ class Receiver(program.Quality):
                     self.assertGreater(figures["landmarks"], 200)
                     stated = figures["uncertainty"]
                     self.assertAlmostEqual(stated["stated_rotation_std_deg"], 0.1 if angles else 0, places=2)
-                    self.assertEqual(stated["by_poses_rms_m"] > 0.05, bool(place or angles))
+                    self.assertEqual(stated["by_poses_rms_m"] > 0.005, bool(place or angles))
                     self.assertEqual(self.figures("info", "map")["landmarks"], figures["landmarks"])
 
     def test_deviations_of_a_metre_take_no_landmark_away(self):
