@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cairn/core/error.h"
@@ -158,13 +159,14 @@ std::string format_stamp(std::int64_t stamp_ns) {
 }
 
 bool comes_naturally_before(std::string_view a, std::string_view b) {
-  std::string_view rest_a = a, rest_b = b;
-  while (!rest_a.empty() && !rest_b.empty()) {
-    const std::string_view piece_a = take_piece(rest_a), piece_b = take_piece(rest_b);
+  std::optional<bool> more_zeros;  // where they differ first
+  while (!a.empty() && !b.empty()) {
+    const std::string_view piece_a = take_piece(a), piece_b = take_piece(b);
     const int order = compare_pieces(piece_a, piece_b);
     if (order != 0) return order < 0;
+    if (!more_zeros && piece_a.size() != piece_b.size()) more_zeros = piece_a.size() > piece_b.size();
   }
-  return rest_a.empty() && rest_b.empty() ? a < b : rest_a.empty();
+  return a.empty() && b.empty() ? more_zeros.value_or(false) : a.empty() && !b.empty();
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

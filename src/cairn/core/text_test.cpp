@@ -209,6 +209,8 @@ TEST(NaturalOrder, breaks_ties_by_leading_zeros) {
   EXPECT_EQ(sorted({"1.png", "2.png", "01.png", "001.png", "000002.png"}),
             (Names{"001.png", "01.png", "1.png", "000002.png", "2.png"}));
   EXPECT_EQ(sorted({"0", "00"}), (Names{"00", "0"}));
+  EXPECT_EQ(sorted({"0.png", "00.png", "1_01.png", "1_1.png", "01_1.png"}),
+            (Names{"00.png", "0.png", "01_1.png", "1_01.png", "1_1.png"}));
   EXPECT_FALSE(comes_naturally_before("7", "7"));
 }
 

@@ -200,8 +200,8 @@ TEST_F(SurveyTest, not_one_readable_frame_is_bad_input) {
     (void)survey("map");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.details().expected, "a frame with a pose that can be read");
-    EXPECT_EQ(error.details().found, "26 that cannot be read");
+    EXPECT_EQ(error.details().expected, "a PNG, JPEG, PGM or PPM image");
+    EXPECT_EQ(error.details().found, "another kind of file; and none of 26 frames can be read");
   }
 }
 
