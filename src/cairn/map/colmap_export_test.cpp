@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -228,7 +230,7 @@ Map rectified_map(const Calibration& calibration, const std::vector<FrameFiles>&
       frame.observations[i] = {seen.x(), seen.y(), seen.z(), 1, 0.3};
     }
     frame.frame = {10 * k};
-    frame.stamp_ns = frames[static_cast<std::size_t>(10 * k)].stamp_ns;
+    frame.stamp_ns = frames[10 * static_cast<std::size_t>(k)].stamp_ns;
     map.add_keyframe(std::move(frame), pose, k == 0 ? KeyframeId{} : KeyframeId{k - 1}, 0);
   }
   for (std::int32_t i = 0; i < 30; ++i) {
