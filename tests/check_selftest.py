@@ -124,7 +124,8 @@ class Headers(Sample):
         self.write("src/room/CMakeLists.txt", "cairn_room(room HEADERS a.h SOURCES a.cpp)\n")
         self.write("CMakeLists.txt",
                    "cmake_minimum_required(VERSION 3.25)\nproject(sample LANGUAGES CXX)\n"
-                   f"add_library(cairn_compile_options INTERFACE)\ninclude({ROOT}/cmake/rooms.cmake)\n"
+                   "find_package(Eigen3 REQUIRED)\nfind_package(fmt REQUIRED)\nadd_library(cairn_compile_options INTERFACE)\n"
+                   f"include({ROOT}/cmake/precompiled.cmake)\ninclude({ROOT}/cmake/rooms.cmake)\n"
                    "add_subdirectory(src/room)\n")
         build = self.root / "build"
         code, output = self.run_command("cmake", "-G", "Ninja", "-S", self.root, "-B", build)
