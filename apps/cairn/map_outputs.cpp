@@ -119,9 +119,11 @@ void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
   fmt::print("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
   fmt::print("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
              ratio(counts.sightings, counts.landmarks));
-  fmt::print(
-      "deviations   {:.2g} m by what the images leave open, {:.2g} m by the poses' (RMS, worst direction)\n",
-      result.image_std_rms_m, result.pose_std_rms_m);
+  const std::string by_poses = result.pose_std_rms_m > 0
+                                   ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
+                                   : "none stated of the poses";
+  fmt::print("deviations   {:.2g} m by what the images leave open, {} (RMS, worst direction)\n",
+             result.image_std_rms_m, by_poses);
   fmt::print("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
   fmt::print("picture      {}/{}, the landmarks from above\n", summary.folder, kMapPicture);
   if (!summary.image_root.empty())

@@ -48,8 +48,7 @@ void SlamOptions::validate() const {
   check_parameter(is_positive(max_norm), "max_norm", "rad + m above 0", max_norm);
   check_parameter(frame_period_s >= 0, "frame_period_s", "seconds from 0", frame_period_s);
   check_parameter(is_positive(max_norm_lp), "max_norm_lp", "rad + m above 0", max_norm_lp);
-  check_parameter(keyframe_threshold >= 0 && keyframe_threshold < max_norm, "keyframe_threshold",
-                  "rad + m from 0 to max_norm", keyframe_threshold);
+  check_parameter(keyframe_threshold >= 0, "keyframe_threshold", "rad + m from 0", keyframe_threshold);
   check_parameter(weak_tracking >= 0, "weak_tracking", "a number of inliers from 0", weak_tracking);
   check_parameter(place_loops >= 0, "place_loops", "a number of keyframes from 0", place_loops);
   check_parameter(nearby_loops >= 0, "nearby_loops", "a number of keyframes from 0", nearby_loops);

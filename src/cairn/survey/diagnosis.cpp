@@ -112,7 +112,8 @@ std::string explain_no_landmarks(const SurveyResult& result, const SurveyOptions
 
 std::string describe_dominant_poses(const SurveyResult& result) {
   const SurveyCounts& counts = result.counts;
-  if (2 * counts.dominated_by_poses <= counts.landmarks) return {};
+  const bool of_most = 2 * counts.dominated_by_poses > counts.landmarks;
+  if (!of_most || result.pose_std_rms_m <= result.image_std_rms_m) return {};
   return fmt::format(
       "the poses' stated deviations dominate: to {} of {} landmarks they add more ({:.2g} m, root mean "
       "square "

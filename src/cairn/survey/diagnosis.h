@@ -14,8 +14,8 @@ namespace cairn {
 /// lines without a line break at the end. The result has no landmarks.
 [[nodiscard]] std::string explain_no_landmarks(const SurveyResult& result, const SurveyOptions& options);
 
-/// Says that the poses' stated deviations make more of most landmarks' standard deviations than the images
-/// do, with the figures; empty if they do not. One line.
+/// Says that the poses' stated deviations make more of the landmarks' standard deviations than the images do,
+/// of most landmarks and over all (root mean square), with the figures; empty if they do not. One line.
 [[nodiscard]] std::string describe_dominant_poses(const SurveyResult& result);
 
 }  // namespace cairn

@@ -54,8 +54,10 @@ TEST(DescribeDominantPoses, only_if_they_dominate_most) {
   result.counts.dominated_by_poses = 5;
   EXPECT_EQ(describe_dominant_poses(result), "");
   result.counts.dominated_by_poses = 6;
-  result.pose_std_rms_m = 1.02;
+  result.pose_std_rms_m = 0.04;
   result.image_std_rms_m = 0.08;
+  EXPECT_EQ(describe_dominant_poses(result), "");
+  result.pose_std_rms_m = 1.02;
   const std::string said = describe_dominant_poses(result);
   EXPECT_TRUE(says(said, "6 of 10") && says(said, "1 m") && says(said, "0.08 m")) << said;
 }
