@@ -30,7 +30,7 @@ struct Choices {
 [[nodiscard]] NumberRange number_in(double low, double high);
 [[nodiscard]] NumberRange number_in_or(double low, double high, std::string word);
 [[nodiscard]] Choices one_of(std::vector<std::string> names);
-/// As one_of, in capitals or not; the value becomes the name as it stands in the list.
+/// As one_of, in capitals or not; the value stays as it was written.
 [[nodiscard]] Choices one_of_any_case(std::vector<std::string> names);
 
 /// Stands for one option or positional argument of a CommandLine, which lives as long.

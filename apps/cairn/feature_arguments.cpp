@@ -8,8 +8,18 @@
 
 namespace cairn::app {
 
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+}  // namespace
+
 std::unique_ptr<Extractor> FeatureArguments::extractor() const {
-  const bool root = method == "ROOTSIFT";
+  const bool root = lower(method) == "rootsift";
   return make_extractor({root ? "SIFT" : method, method, count});
 }
 
