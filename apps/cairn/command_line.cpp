@@ -103,9 +103,8 @@ Option& Option::check(const NumberRange& range) {
 }
 
 Option& Option::check(const Choices& choices) {
-  option_->check(choices.ignores_case
-                     ? CLI::Validator(CLI::IsMember(choices.names, CLI::ignore_case).description(""))
-                     : CLI::Validator(CLI::IsMember(choices.names).description("")));
+  option_->check(choices.ignores_case ? CLI::IsMember(choices.names, CLI::ignore_case)
+                                      : CLI::IsMember(choices.names));
   return *this;
 }
 

@@ -46,7 +46,7 @@ void add_noise_option(CommandLine& app, const std::string& sensor, const std::st
   app.add_option("--noise", arguments.noise,
                  fmt::format("{}; none: exact (default: {})", description, sensor))
       .check(one_of({sensor, std::string("none")}))
-      .type_name(sensor + "|none");
+      .type_name("NAME");
 }
 
 nlohmann::ordered_json to_json(const SimulationReport& report, const Arguments& arguments) {
