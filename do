@@ -123,6 +123,7 @@ demo() {
 
 The sequence is in demo/room, the result in demo/run:
   trajectory.txt   world_from_camera of every frame, TUM format
+  landmarks.png    the map from above, landmarks in the colours of their standard deviations
   cloud.ply        coloured cloud: open it in MeshLab, CloudCompare or Blender
   octree.ot        occupancy for navigation: octovis demo/run/octree.ot
   run.json         figures of the run
