@@ -184,7 +184,7 @@ std::string describe_stamps(const Sequence& sequence) {
 }
 
 std::string describe_camera(const Camera& camera, const QueryCamera& observed) {
-  const std::string size = fmt::format("{}x{} pixels", camera.width, camera.height);
+  std::string size = fmt::format("{}x{} pixels", camera.width, camera.height);
   if (camera.width == observed.width && camera.height == observed.height) return size;
   return fmt::format("{}, scaled to {}x{}: to the map's pixels per radian", size, observed.width,
                      observed.height);
@@ -206,7 +206,7 @@ std::string format_trajectory(const std::vector<LocalizedImage>& images, const L
   Trajectory trajectory;
   for (const LocalizedImage& image : images)
     if (image.found.found()) trajectory.push_back({image.stamp_ns, image.found.camera_from_world.inverse()});
-  const std::string text = format_tum_trajectory(trajectory);
+  std::string text = format_tum_trajectory(trajectory);
   if (summary.stamps == kTimes) return text;
   return fmt::format("# t: {}; localization.csv has the names of the files\n{}", summary.stamps, text);
 }
