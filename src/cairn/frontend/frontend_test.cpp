@@ -18,8 +18,8 @@ GrayImage blocks(int shift) {
   GrayImage image(kWidth, kHeight);
   for (int v = 0; v < kHeight; ++v)
     for (int u = 0; u < kWidth; ++u) {
-      const auto block = static_cast<std::uint64_t>(v / kBlock * 1000 + (u + shift) / kBlock);
-      image(u, v) = static_cast<std::uint8_t>(40 + Random(7, block).index(170));
+      const int block = v / kBlock * 1000 + (u + shift) / kBlock;
+      image(u, v) = static_cast<std::uint8_t>(40 + Random(7, static_cast<std::uint64_t>(block)).index(170));
     }
   return image;
 }
