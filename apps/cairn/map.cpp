@@ -43,7 +43,7 @@ void declare(CommandLine& app, MapArguments& arguments) {
            "         cairn map SEQ --poses gnss.csv -o map --export colmap\n"
            "Stopped by Ctrl-C or killed, the same command goes on where it was: what is done lies in "
            "MAP.unfinished.\n"
-           "Parameters for --set and --config with their defaults; the README says what they mean:\n" +
+           "Parameters for --set and --config with their defaults; docs/mapping.md says what they mean:\n" +
            MapParameters().table().format();
   });
 }

@@ -111,6 +111,8 @@ void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
   if (result.moved_rms_m > 0)
     fmt::print(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
                100 * result.moved_rms_m, result.turned_rms_deg);
+  if (result.pose_check.verdict == PoseVerdict::contradiction)
+    fmt::print("\n             they contradict the images: {}", describe(result.pose_check));
   fmt::print("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
              ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
              ratio(counts.matched, counts.frames));

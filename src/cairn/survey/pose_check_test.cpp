@@ -82,6 +82,22 @@ TEST_F(CheckPoses, right_ones_agree) {
   EXPECT_NO_THROW(refuse_misread(found, sequence_, poses_));
 }
 
+TEST_F(CheckPoses, names_of_a_quaternion_may_be_wrong_either_way) {
+  poses_.format = "table";
+  change([](const Rigid3& pose) {  // qx qy qz qw stood below qw qx qy qz
+    const Eigen::Quaterniond& q = pose.rotation;
+    return Rigid3{Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()), pose.translation};
+  });
+  expect_misread("quaternions with qw last, qx qy qz qw");
+}
+
+TEST_F(CheckPoses, poses_of_the_camera_may_be_taken_for_a_body) {
+  poses_.format = "table";
+  poses_.subject_from_camera = {Eigen::Quaterniond(0.5, 0.5, 0.5, 0.5), {1.2, 0.3, -0.9}};
+  change([this](const Rigid3& pose) { return pose * poses_.subject_from_camera; });
+  expect_misread("poses of the camera itself");
+}
+
 TEST_F(CheckPoses, the_order_of_quaternions_is_named) {
   change([](const Rigid3& pose) {  // qw qx qy qz were read as qx qy qz qw
     const Eigen::Quaterniond& q = pose.rotation;

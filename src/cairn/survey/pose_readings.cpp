@@ -55,12 +55,19 @@ std::vector<Change> quaternion_orders() {
            [=](const Rigid3& pose) { return reordered(pose, false); }}};
 }
 
-/// A file in the TUM format states qw last, one in EuRoC's first: only the other order can be meant.
-std::optional<Change> other_quaternion_order(const Sequence& sequence, const GivenPoses& given) {
-  if (!have_quaternions(sequence, given)) return std::nullopt;
+/// A file in the TUM format states qw last, one in EuRoC's first: only the other order can be meant. The
+/// names of a table's columns may be wrong either way.
+std::vector<Change> other_quaternion_orders(const Sequence& sequence, const GivenPoses& given) {
+  if (!have_quaternions(sequence, given)) return {};
+  std::vector<Change> orders = quaternion_orders();
+  if (given.format == "table") {
+    orders[0].remedy = "Rename the columns: those named qx, qy, qz, qw hold qw, qx, qy, qz.";
+    orders[1].remedy = "Rename the columns: those named qw, qx, qy, qz hold qx, qy, qz, qw.";
+    return orders;
+  }
   const bool states_w_first =
       given.format == "EuRoC" || (given.format == "truth" && sequence.format == "EuRoC");
-  return quaternion_orders()[states_w_first ? 1 : 0];
+  return {orders[states_w_first ? 1 : 0]};
 }
 
 Change inverse_poses() {
@@ -131,9 +138,9 @@ std::vector<Change> other_places(const GivenPoses& given) {
 
 std::vector<Change> changes_of(const Sequence& sequence, const GivenPoses& given) {
   std::vector<Change> changes{identity()};
-  if (const auto order = other_quaternion_order(sequence, given)) changes.push_back(*order);
   if (given.format != "OXTS") changes.push_back(inverse_poses());
-  for (const auto& more : {other_angles(given), other_places(given)})
+  for (const auto& more :
+       {other_quaternion_orders(sequence, given), other_angles(given), other_places(given)})
     changes.insert(changes.end(), more.begin(), more.end());
   return changes;
 }
@@ -164,6 +171,9 @@ std::vector<Mount> mounts_of(const GivenPoses& given) {
                            axes.xyzw),
          {axes.axes_from_camera, stated.translation}});
   }
+  if (of_body && motion_norm(stated) > 0)
+    mounts.push_back({"poses of the camera itself",
+                      "Write them in TUM format, or leave 'body' out of camera.yaml.", Rigid3{}});
   if (of_body)
     mounts.push_back({"body_from_camera as its inverse, camera_from_body",
                       "Write the inverse of body_from_camera into camera.yaml.", stated.inverse()});
@@ -186,8 +196,8 @@ PoseReading reading_of(const CameraPoses& poses, const Rigid3& stated_camera_fro
   return reading;
 }
 
-/// Frame i with the pose of frame i + `by`.
-PoseReading shifted(const Sequence& sequence, const CameraPoses& poses, int by) {
+/// Frame i with the pose of frame i + `by`; `offset_s` was added to the stamps already.
+PoseReading shifted(const Sequence& sequence, const CameraPoses& poses, double offset_s, int by) {
   PoseReading reading;
   const auto count = static_cast<std::int64_t>(poses.size());
   double seconds = 0;
@@ -203,7 +213,8 @@ PoseReading shifted(const Sequence& sequence, const CameraPoses& poses, int by) 
   if (shared > 0) seconds /= static_cast<double>(shared);
   reading.name = fmt::format("poses of the frames {} {}", std::abs(by), by > 0 ? "later" : "earlier");
   reading.remedy = fmt::format(
-      "Add {:.3f} s to the stamps of the poses (--pose-offset), or correct their numbers.", seconds);
+      "Add {:.3f} s to the stamps of the poses, --pose-offset {:.3f} in all, or correct their numbers.",
+      seconds, offset_s + seconds);
   return reading;
 }
 
@@ -224,8 +235,8 @@ std::vector<PoseReading> other_readings(const Sequence& sequence, const GivenPos
   }
   constexpr int kMostFrames = 10;
   for (int by = 1; by <= kMostFrames; ++by) {
-    readings.push_back(shifted(sequence, poses, by));
-    readings.push_back(shifted(sequence, poses, -by));
+    readings.push_back(shifted(sequence, poses, given.time_offset_s, by));
+    readings.push_back(shifted(sequence, poses, given.time_offset_s, -by));
   }
   return readings;
 }
