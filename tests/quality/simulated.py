@@ -217,7 +217,7 @@ class Small(program.Quality):
 
     def test_an_interrupted_run_writes_what_was_done(self):
         self.cairn("simulate", "room", "-o", "long", "--frames-count", "200", "--scale", "0.5", "--quiet")
-        process = subprocess.Popen([sys.argv[1], "slam", "long", "-o", "run", "--threads", "1", "--json"], cwd=self.folder,
+        process = subprocess.Popen([Path(sys.argv[1]).resolve(), "slam", "long", "-o", "run", "--threads", "1", "--json"], cwd=self.folder,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         while process.poll() is None and program.processor_seconds(process.pid) < 1.0:
             time.sleep(0.01)
