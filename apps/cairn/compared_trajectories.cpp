@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
 #include "cairn/sequence/formats.h"
 #include "cairn/sequence/trajectory_file.h"
 #include "common.h"
@@ -39,12 +41,27 @@ bool is_sequence(const fs::path& folder) {
          is_numbered(folder, {});
 }
 
+/// Warns if the poses are those of a run of cairn localize whose images have no times.
+void warn_of_made_up_stamps(const fs::path& path) {
+  const fs::path report = (fs::is_directory(path) ? path : path.parent_path()) / "run.json";
+  if (!fs::is_regular_file(report)) return;
+  const auto json = nlohmann::json::parse(cairn::read_file(report), nullptr, false);
+  if (!json.is_object() || !json.contains("stamps") || !json["stamps"].is_string()) return;
+  const auto stamps = json["stamps"].get<std::string>();
+  if (stamps == "times") return;
+  print_warnings(
+      {fmt::format("{}: its stamps are {}. They pair with REF only if it counts alike; "
+                   "localization.csv has the names of the files.",
+                   path.string(), stamps)});
+}
+
 TrajectoryFile read_file(const fs::path& path, const TrajectoryFileOptions& options) {
   const bool holds_poses =
       !fs::is_directory(path) || fs::exists(path / "trajectory.txt") || is_pose_folder(path);
   if (holds_poses) {
     TrajectoryFile file = read_trajectory_file(path, options);
     print_warnings(file.warnings);
+    warn_of_made_up_stamps(path);
     return file;
   }
   throw InputError({path.string(), 0, "a trajectory file, or a run's folder with trajectory.txt",

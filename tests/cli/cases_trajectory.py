@@ -46,6 +46,8 @@ def geodetic(name, count):
 
 
 CASES = [
+    Case("evaluate images without times", "evaluate run ref.txt", ("run: its stamps are positions of the images. They pair with REF only if",),
+         (trajectory("run/trajectory.txt"), file("run/run.json", '{"stamps": "positions of the images"}'), trajectory("ref.txt")), code=0),
     Case("evaluate", "evaluate a.txt b.txt", given=POSES, code=0, prints=("ATE se3", "ATE sim3", "RPE 1 frame")),
     Case("identical trajectories", "evaluate a.txt a.txt --json", given=POSES, code=0, prints=('"status": "ok"', '"drift": null')),
     Case("several estimates", "evaluate a.txt b.txt c.txt b.txt", given=(*POSES, trajectory("c.txt", 9)), code=0,
