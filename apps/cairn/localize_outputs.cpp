@@ -2,7 +2,6 @@
 #include "localize_outputs.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <numbers>
 
 #include "cairn/core/text.h"
+#include "common.h"
 #include "map_pictures.h"
 
 namespace cairn::app {
@@ -20,12 +20,6 @@ namespace {
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr const char* kTimes = "times";
 constexpr std::array<const char*, 6> kAxes{"rx", "ry", "rz", "x", "y", "z"};
-
-double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
 
 /// Of six numbers, rotations in degrees and the position in metres.
 std::string columns(const char* name, const char* of_rotation, const char* of_position) {

@@ -56,10 +56,7 @@ std::vector<std::optional<WorldFromCamera>> read_reported_poses(const Sequence& 
                                                                 const PoseArguments& arguments) {
   const GivenPoses given = read_given_poses(sequence, arguments.options());
   print_warnings(given.warnings);
-  std::vector<std::optional<WorldFromCamera>> poses;
-  for (const auto& pose : given.frames)
-    poses.push_back(pose ? std::optional(pose->world_from_camera) : std::nullopt);
-  return poses;
+  return camera_poses(given);
 }
 
 }  // namespace cairn::app

@@ -177,12 +177,16 @@ GivenPoses read_given_poses(const Sequence& sequence, const GivenPosesOptions& o
   }
 }
 
+std::vector<std::optional<WorldFromCamera>> camera_poses(const GivenPoses& given) {
+  std::vector<std::optional<WorldFromCamera>> poses;
+  for (const auto& pose : given.frames)
+    poses.push_back(pose ? std::optional(pose->world_from_camera) : std::nullopt);
+  return poses;
+}
+
 std::vector<std::optional<WorldFromCamera>> poses_of_frames(const Sequence& sequence,
                                                             const GivenPosesOptions& options) {
-  std::vector<std::optional<WorldFromCamera>> poses;
-  for (const auto& given : read_given_poses(sequence, options).frames)
-    poses.push_back(given ? std::optional(given->world_from_camera) : std::nullopt);
-  return poses;
+  return camera_poses(read_given_poses(sequence, options));
 }
 
 std::optional<fs::path> oxts_in(const fs::path& sequence_folder) {

@@ -63,7 +63,10 @@ struct GivenPoses {
 /// no frame gets a pose.
 [[nodiscard]] GivenPoses read_given_poses(const Sequence& sequence, const GivenPosesOptions& options = {});
 
-/// Without what is known of them.
+/// The poses alone, without what is known of their errors.
+[[nodiscard]] std::vector<std::optional<WorldFromCamera>> camera_poses(const GivenPoses& given);
+
+/// As camera_poses of read_given_poses.
 [[nodiscard]] std::vector<std::optional<WorldFromCamera>> poses_of_frames(
     const Sequence& sequence, const GivenPosesOptions& options = {});
 

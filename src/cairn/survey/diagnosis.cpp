@@ -6,18 +6,17 @@
 #include <algorithm>
 #include <numbers>
 #include <numeric>
+#include <utility>
 #include <vector>
 
+#include "cairn/core/median.h"
 #include "cairn/map/indicators.h"
 
 namespace cairn {
 namespace {
 
 double median_or_zero(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : median(std::move(values));
 }
 
 std::int64_t sum_of(const CleaningCounts& cleaned) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
+#include "cairn/core/median.h"
 #include "cairn/features/matching.h"
 #include "cairn/frontend/frontend.h"
 #include "cairn/geometry/pnp_ransac.h"
@@ -33,12 +34,6 @@ struct SeenMotion {
   std::vector<Eigen::Vector2d> pixels_in_second;
   double flow_px = 0;
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// How far the points lie in the second image from where a motion puts them; infinite behind the camera.
 double error_of(const Rig& rig, const SeenMotion& motion, const Rigid3& second_from_first) {
@@ -141,13 +136,6 @@ Disagreement disagreement(const Rig& rig, const std::vector<SeenMotion>& motions
   return {median(std::move(errors)), median(std::move(shares))};
 }
 
-CameraPoses poses_of(const GivenPoses& given) {
-  CameraPoses poses;
-  for (const auto& pose : given.frames)
-    poses.push_back(pose ? std::optional(pose->world_from_camera) : std::nullopt);
-  return poses;
-}
-
 void fill_figures(const std::vector<SeenMotion>& motions, const CameraPoses& poses, PoseCheck& check) {
   std::vector<double> flows, image_turns, pose_turns, image_ways, pose_ways;
   constexpr double kDegrees = 180 / std::numbers::pi;
@@ -202,7 +190,7 @@ PoseCheck check_poses(const Sequence& sequence, const GivenPoses& poses, const O
   const std::vector<SeenMotion> motions = probe.spread(executor);
   check.pairs = static_cast<int>(motions.size());
   if (check.pairs < kFewestPairs) return check;
-  const CameraPoses given = poses_of(poses);
+  const CameraPoses given = camera_poses(poses);
   fill_figures(motions, given, check);
   const Disagreement as_given = disagreement(probe.rig(), motions, given);
   check.error_px = as_given.error_px;

@@ -221,9 +221,7 @@ PoseReading shifted(const Sequence& sequence, const CameraPoses& poses, double o
 }  // namespace
 
 std::vector<PoseReading> other_readings(const Sequence& sequence, const GivenPoses& given) {
-  CameraPoses poses;
-  for (const auto& pose : given.frames)
-    poses.push_back(pose ? std::optional(pose->world_from_camera) : std::nullopt);
+  const CameraPoses poses = camera_poses(given);
   const std::vector<Mount> mounts = mounts_of(given);
   const Rigid3 camera_from_subject = mounts.front().subject_from_camera.inverse();
   std::vector<PoseReading> readings;
