@@ -11,7 +11,7 @@ usage: ./do COMMAND [ARGUMENTS]
   build              install what is missing, then build the program: build/release/cairn
   test [CTEST ARGS]  build everything and run the tests, e.g. ./do test -R core
   demo               build, then simulate a room, map it and compare with the truth
-  asan [CTEST ARGS]  the tests with the address and undefined-behaviour sanitizers
+  asan [CTEST ARGS]  the tests with the address and undefined-behaviour sanitizers of clang
   tsan [CTEST ARGS]  the tests with the thread sanitizer
   bench [ARGS]       time cairn beside its peers and print a table; ARGS go to Google Benchmark,
                      e.g. ./do bench --benchmark_filter=ORB
@@ -47,7 +47,8 @@ packages_test=(
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
-packages_tidy=(clang-tidy-14 python3)
+packages_sanitizers=(clang-16 libclang-rt-16-dev)  # half the build time of g++ with sanitizers, and a second compiler
+packages_tidy=(clang-tidy-14 python3 universal-ctags)
 packages_format=(clang-format-14 python3)
 
 say() { printf 'do: %s\n' "$*" >&2; }
@@ -103,9 +104,10 @@ build() {
 }
 
 build_and_test() {  # preset, ctest arguments
-  local preset=$1
+  local preset=$1 packages=("${packages_build[@]}" "${packages_test[@]}")
   shift
-  need "${packages_build[@]}" "${packages_test[@]}"
+  [ "$preset" = release ] || packages+=("${packages_sanitizers[@]}")
+  need "${packages[@]}"
   configure "$preset"
   say "building build/$preset; the first time takes some minutes"
   ninja --quiet -C "build/$preset"

@@ -6,6 +6,7 @@
 #include <ceres/tiny_solver_autodiff_function.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <memory>
 
 #include "cairn/optimize/landmark_test_scene.h"

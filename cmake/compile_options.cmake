@@ -3,8 +3,8 @@ add_library(cairn_compile_options INTERFACE)
 target_compile_options(cairn_compile_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow
   -ffp-contract=off)  # same bits on every machine: a*b+c is never fused
-# Only for the compiler that we develop with: each version has its own false alarms, which must not stop a user's build.
-if(CAIRN_WERROR AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.")
+# Only for the compilers that we develop with: each version has its own false alarms, which must not stop a user's build.
+if(CAIRN_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" MATCHES "^(GNU 12|Clang 16)\\.")
   target_compile_options(cairn_compile_options INTERFACE -Werror)
 endif()
 if(CAIRN_NATIVE)

@@ -1,21 +1,37 @@
-# cairn_room(<name> HEADERS ... SOURCES ... [TESTS ...] [PUBLIC ...] [PRIVATE ...])
+# cairn_room(<name> HEADERS ... SOURCES ... [TESTS ...] [LONG ...] [PUBLIC ...] [PRIVATE ...])
 #
-# A room is one static library, cairn::<name>, with its headers in a verified file set (each compiles alone)
-# and its unit tests in one executable, cairn_<name>_tests. PUBLIC are the rooms and libraries whose types its
-# headers show, PRIVATE those that only its sources know.
+# A room is one static library, cairn::<name>, with its unit tests in one executable, cairn_<name>_tests. LONG names
+# the test suites that take longest. PUBLIC are the rooms and libraries whose types its headers show, PRIVATE those that
+# only its sources know. The target cairn_headers
+# compiles each header of each room alone, apart from the precompiled ones, for which tests/check_includes.py looks.
+add_custom_target(cairn_headers)
+
 function(cairn_room name)
-  cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;TESTS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "HEADERS;SOURCES;TESTS;LONG;PUBLIC;PRIVATE" ${ARGN})
   add_library(cairn_${name} STATIC ${ROOM_SOURCES})
   add_library(cairn::${name} ALIAS cairn_${name})
   target_sources(cairn_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${CMAKE_SOURCE_DIR}/src FILES ${ROOM_HEADERS})
   target_link_libraries(cairn_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE} cairn_compile_options)
   cairn_precompile(cairn_${name})
-  set_target_properties(cairn_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  cairn_check_headers(${name} ${ROOM_HEADERS})
   if(CAIRN_TESTS AND ROOM_TESTS)
     add_executable(cairn_${name}_tests ${ROOM_TESTS})
-    target_link_libraries(cairn_${name}_tests PRIVATE cairn::${name} GTest::gtest_main cairn_compile_options)
+    target_link_libraries(cairn_${name}_tests PRIVATE cairn::${name} cairn_gtest_main cairn_compile_options)
     cairn_precompile(cairn_${name}_tests TEST)
     target_compile_definitions(cairn_${name}_tests PRIVATE CAIRN_DATA_DIR="${CAIRN_DATA_DIR}")
-    gtest_discover_tests(cairn_${name}_tests TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+    cairn_discover_suites(cairn_${name}_tests ${name} ${ROOM_LONG})
   endif()
+endfunction()
+
+function(cairn_check_headers name)
+  foreach(header ${ARGN})
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/headers/${header}.cpp)
+    file(RELATIVE_PATH path ${CMAKE_SOURCE_DIR}/src ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+    file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${path}\"\n")
+    list(APPEND sources ${source})
+  endforeach()
+  add_library(cairn_${name}_header_check OBJECT EXCLUDE_FROM_ALL ${sources})
+  target_link_libraries(cairn_${name}_header_check PRIVATE cairn::${name} cairn_compile_options)
+  cairn_precompile(cairn_${name}_header_check)
+  add_dependencies(cairn_headers cairn_${name}_header_check)
 endfunction()

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shows that each check of this folder finds what it is there to find: a good sample passes, a bad one fails."""
 
+import json
 import shutil
 import subprocess
 import sys
@@ -117,10 +118,41 @@ class Format(Sample):
         self.assertEqual(self.check("check_format.py")[0], 1)
 
 
+class Includes(Sample):
+    def setUp(self):
+        super().setUp()
+        self.write("cmake/precompiled.cmake", "set(CAIRN_PRECOMPILED_HEADERS\n  <Eigen/LU> <string> <vector>)\n")
+        self.write("src/cairn/core/text.h", "#include <string>\n")
+
+    def expect(self, text, message):
+        self.write("src/cairn/core/text.cpp", text)
+        code, output = self.check("check_includes.py")
+        self.assertEqual(code, 1 if message else 0, output)
+        self.assertIn(message or "0 complaints", output)
+
+    def test_accepts_what_our_headers_include_and_what_a_header_of_eigen_brings(self):
+        self.expect('#include <Eigen/LU>\n#include "cairn/core/text.h"\nstd::string a;\nEigen::PartialPivLU<Eigen::Matrix3d> b;\n', None)
+
+    def test_passes_over_comments_and_text(self):
+        self.expect('// std::vector\nconst char* a = "std::vector";\n', None)
+
+    def test_refuses_what_is_not_included(self):
+        self.expect('#include "cairn/core/text.h"\n\nstd::vector<int> a;\n',
+                    "core/text.cpp:3: uses std::vector and does not include <vector>")
+
+    def test_refuses_a_library_that_is_not_included(self):
+        self.expect("#include <Eigen/Core>\nEigen::Quaterniond a;\n", "does not include <Eigen/Geometry>")
+
+    def test_refuses_a_precompiled_header_that_it_does_not_know(self):
+        self.write("cmake/precompiled.cmake", "set(CAIRN_PRECOMPILED_HEADERS\n  <deque>)\n")
+        self.expect("\n", "<deque> is precompiled, and check_includes.py does not know")
+
+
 class Headers(Sample):
     def verify(self, header):
+        self.write("src/room/b.h", "#pragma once\nstruct B {};\n")
         self.write("src/room/a.h", header)
-        self.write("src/room/a.cpp", '#include <string>\n#include "room/a.h"\n')
+        self.write("src/room/a.cpp", '#include "room/b.h"\n\n#include "room/a.h"\n')
         self.write("src/room/CMakeLists.txt", "cairn_room(room HEADERS a.h SOURCES a.cpp)\n")
         self.write("CMakeLists.txt",
                    "cmake_minimum_required(VERSION 3.25)\nproject(sample LANGUAGES CXX)\n"
@@ -130,15 +162,15 @@ class Headers(Sample):
         build = self.root / "build"
         code, output = self.run_command("cmake", "-G", "Ninja", "-S", self.root, "-B", build)
         self.assertEqual(code, 0, output)
-        return self.run_command("cmake", "--build", build, "--target", "all_verify_interface_header_sets")
+        return self.run_command("cmake", "--build", build, "--target", "cairn_headers")
 
     def test_refuses_a_header_that_needs_another_before_it(self):
-        code, output = self.verify("#pragma once\nstd::string name();\n")
+        code, output = self.verify("#pragma once\nB make_b();\n")
         self.assertNotEqual(code, 0, output)
         self.assertIn("a.h", output)
 
     def test_accepts_a_header_that_stands_alone(self):
-        code, output = self.verify("#pragma once\n#include <string>\nstd::string name();\n")
+        code, output = self.verify('#pragma once\n#include "room/b.h"\nB make_b();\n')
         self.assertEqual(code, 0, output)
 
 
@@ -194,6 +226,43 @@ class Tidy(Sample):
                 code, output = self.tidy(line)
                 self.assertNotEqual(code, 0)
                 self.assertIn(message, output)
+
+
+class TidyBatches(Sample):
+    """Sources that are checked together: each finding is named with its source, and none is lost."""
+
+    GOOD = "namespace {\nint one() { return 1; }\n}  // namespace\nint %s() { return one(); }\n"
+
+    def setUp(self):
+        super().setUp()
+        self.need("clang-tidy-14")
+        self.need("ctags")
+        shutil.copy(ROOT / ".clang-tidy", self.root)
+
+    def tidy(self, **sources):
+        build = self.root / "build"
+        build.mkdir(exist_ok=True)
+        for name, text in sources.items():
+            self.write(f"src/{name}.cpp", text)
+        commands = [{"directory": str(build), "file": str(self.root / f"src/{name}.cpp"),
+                     "command": f"/usr/bin/c++ -std=c++20 -o {name}.o -c {self.root}/src/{name}.cpp"} for name in sources]
+        (build / "compile_commands.json").write_text(json.dumps(commands))
+        return self.run_command(sys.executable, TESTS / "run_tidy.py", "--root", self.root, "--build", build)
+
+    def test_accepts_sources_that_define_the_same_name(self):
+        code, output = self.tidy(a=self.GOOD % "a", b=self.GOOD % "b", c="int c() { return 3; }\n")
+        self.assertEqual(code, 0, output)
+        self.assertIn("3 sources, 0 as before, 0 with findings", output)
+        batches = [path.read_text().count("#include") for path in (self.root / "build/tidy_batches").rglob("batch.cpp")]
+        self.assertEqual(batches, [2])  # a with c; b alone needs none
+
+    def test_names_the_source_of_a_finding_and_passes_over_the_others_the_next_time(self):
+        for again in ("0", "2"):
+            code, output = self.tidy(a="int a() { return 1; }\n", b="int BigName() { return 2; }\n", c="int c() { return 3; }\n")
+            self.assertEqual(code, 1, output)
+            self.assertIn("tidy: src/b.cpp FAILED", output)
+            self.assertIn("invalid case style for function 'BigName'", output)
+            self.assertIn(f"3 sources, {again} as before, 1 with findings", output)
 
 
 class CommandLineTables(Sample):

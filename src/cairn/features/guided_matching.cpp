@@ -110,7 +110,7 @@ class EpipolarSearch {
       const float reach = band * (sigma[i] > query.sigma_px ? sigma[i] : query.sigma_px) + kSlack;
       const bool near_line = std::abs(a * u[i] + b * v[i] + c) <= reach;
       const bool alike = (size[i] <= ratio * query.size) & (query.size <= ratio * size[i]);
-      flag[i] = near_line & alike ? 1 : 0;
+      flag[i] = (near_line & alike) ? 1 : 0;
     }
   }
 

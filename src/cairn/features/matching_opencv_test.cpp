@@ -2,6 +2,7 @@
 // cairn's matches beside those of OpenCV's brute-force matcher.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 

@@ -301,7 +301,7 @@ TEST(SiftOptions, name_what_is_wrong) {
   EXPECT_THROW(options.validate(), InputError);
   options = {};
   options.count = 0;
-  EXPECT_THROW(make_sift_extractor(options), InputError);
+  EXPECT_THROW((void)make_sift_extractor(options), InputError);
 }
 
 }  // namespace

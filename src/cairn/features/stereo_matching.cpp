@@ -126,7 +126,7 @@ class StereoSearch {
       const bool near_row = std::abs(left.v - v[i]) <= reach;
       const bool in_range = (disparity >= min_disparity_ - reach) & (disparity <= max_disparity_ + reach);
       const bool alike = (size[i] <= max_size_ratio_ * left.size) & (left.size <= max_size_ratio_ * size[i]);
-      flag[i] = near_row & in_range & alike ? 1 : 0;
+      flag[i] = (near_row & in_range & alike) ? 1 : 0;
     }
   }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/alignment.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/decompositions.h"
 
 namespace cairn {
 namespace {
@@ -37,7 +37,7 @@ bool usable(Points points) {
 }
 
 AlignmentStatus spread_of(const Eigen::Matrix3d& variance, const Eigen::Vector3d& mean) {
-  const Eigen::Vector3d spreads = Eigen::JacobiSVD<Eigen::Matrix3d>(variance).singularValues();
+  const Eigen::Vector3d spreads = svd_of(variance).values;
   constexpr double kRounding = 1e-14;  // of coordinates
   if (std::sqrt(spreads[0]) <= kRounding * (mean.norm() + 1e-6)) return AlignmentStatus::one_place;
   // squared because these are variances, of which the square roots are lengths
@@ -77,25 +77,24 @@ Alignment align_points(Points source, Points target, bool with_scale) {
   if (result.status == AlignmentStatus::ok) result.status = spread_of(target_variance, target_mean);
   if (result.status != AlignmentStatus::ok) return result;
 
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance(target, target_mean, source, source_mean),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d& values = svd.singularValues();
+  const Svd3 svd = svd_of(covariance(target, target_mean, source, source_mean));
+  const Eigen::Vector3d& values = svd.values;
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign[2] = -1;
+  if (svd.u.determinant() * svd.v.determinant() < 0) sign[2] = -1;
   const double corresponding = values[1] + sign[2] * values[2];
   if (corresponding <= kRelativeRank * values[0]) {
     result.status =
         values[1] <= kRelativeRank * values[0] ? AlignmentStatus::one_line : AlignmentStatus::mirrored;
     return result;
   }
-  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const Eigen::Matrix3d rotation = svd.u * sign.asDiagonal() * svd.v.transpose();
   Similarity3& found = result.target_from_source;
   if (with_scale) found.scale = values.dot(sign) / source_variance.trace();
   found.rotation = Eigen::Quaterniond(rotation).normalized();
   found.translation = target_mean - found.scale * (found.rotation * source_mean);
   result.rmse = rms_distance(found, source, target);
   // a turn by a small angle about the main line adds angle^2 * scale * corresponding to the mean square
-  const double across = squared_residual_across(svd.matrixU().col(0), found, source, target);
+  const double across = squared_residual_across(svd.u.col(0), found, source, target);
   result.turn_uncertainty = std::min(std::numbers::pi, std::sqrt(across / (found.scale * corresponding)));
   return result;
 }

@@ -3,10 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/decompositions.h"
 
 namespace cairn {
 namespace {
@@ -99,8 +99,8 @@ std::array<Rigid3, 4> EssentialDecomposition::candidates() const {
 
 EssentialDecomposition decompose_essential(const Eigen::Matrix3d& E) {
   require(E.allFinite(), "the elements of an essential matrix are finite");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(E, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d &U = svd.matrixU(), &V = svd.matrixV();
+  const Svd3 svd = svd_of(E);
+  const Eigen::Matrix3d &U = svd.u, &V = svd.v;
   Eigen::Matrix3d W;
   W << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   EssentialDecomposition result;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/homography.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/decompositions.h"
 #include "cairn/geometry/point_pairs.h"
 
 namespace cairn {
@@ -174,24 +174,22 @@ std::optional<Eigen::Matrix3d> fit_homography(Points a, Points b, std::span<cons
     const Eigen::Matrix2d weight = residual_of(normalised_weighting, p, q).covariance.inverse();
     if (weight.allFinite()) sum.noalias() += rows.transpose() * weight * rows;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix9d> eigen(sum);
-  const auto& values = eigen.eigenvalues();  // rising
-  constexpr double kRank = 1e-12;            // a second null vector: not determined
-  if (eigen.info() != Eigen::Success || !(values[1] > kRank * values[8])) return std::nullopt;
-  const Eigen::Matrix3d H = from_b * matrix_of(eigen.eigenvectors().col(0)) * to_a;
+  const SymmetricEigen<9> eigen = eigen_of_symmetric(sum);
+  constexpr double kRank = 1e-12;  // a second null vector: not determined
+  if (!(eigen.values[1] > kRank * eigen.values[8])) return std::nullopt;
+  const Eigen::Matrix3d H = from_b * matrix_of(eigen.vectors.col(0)) * to_a;
   if (!H.allFinite() || !(H.norm() > 0)) return std::nullopt;
   return standardised(H, a[static_cast<std::size_t>(used[0])]);
 }
 
 std::array<Rigid3, 4> decompose_homography(const Eigen::Matrix3d& homography) {
   require(homography.allFinite(), "the elements of a homography are finite");
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(homography.transpose() * homography);
-  const double scale = std::sqrt(eigen.eigenvalues()[1]);
+  const SymmetricEigen<3> eigen = eigen_of_symmetric(Eigen::Matrix3d(homography.transpose() * homography));
+  const double scale = std::sqrt(eigen.values[1]);
   const Eigen::Matrix3d H = homography / scale;
-  const double largest = eigen.eigenvalues()[2] / (scale * scale);   // squared singular value, at least 1
-  const double smallest = eigen.eigenvalues()[0] / (scale * scale);  // at most 1
-  const Eigen::Vector3d v1 = eigen.eigenvectors().col(2), v2 = eigen.eigenvectors().col(1),
-                        v3 = eigen.eigenvectors().col(0);
+  const double largest = eigen.values[2] / (scale * scale);   // squared singular value, at least 1
+  const double smallest = eigen.values[0] / (scale * scale);  // at most 1
+  const Eigen::Vector3d v1 = eigen.vectors.col(2), v2 = eigen.vectors.col(1), v3 = eigen.vectors.col(0);
   std::array<Rigid3, 4> motions;
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1 : -1;

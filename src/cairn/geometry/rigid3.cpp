@@ -2,9 +2,10 @@
 #include "cairn/geometry/rigid3.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
+
+#include "cairn/geometry/decompositions.h"
 
 namespace cairn {
 
@@ -38,8 +39,8 @@ double deviation_from_rotation(const Eigen::Matrix3d& matrix) {
 }
 
 Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * svd.matrixV().transpose())).normalized();
+  const Svd3 svd = svd_of(matrix);
+  return Eigen::Quaterniond(Eigen::Matrix3d(svd.u * svd.v.transpose())).normalized();
 }
 
 Rigid3 perturb_left(const Vector6d& xi, const Rigid3& target_from_source) {

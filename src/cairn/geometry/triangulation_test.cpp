@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cairn/geometry/two_view_test_scene.h"
 
 namespace cairn {

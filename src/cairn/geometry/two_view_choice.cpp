@@ -2,13 +2,13 @@
 #include "cairn/geometry/two_view_choice.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/decompositions.h"
 #include "cairn/geometry/essential.h"
 #include "cairn/geometry/homography.h"
 
@@ -76,11 +76,10 @@ Eigen::Quaterniond fit_rotation(Points a, Points b, std::span<const std::int32_t
     const auto i = static_cast<std::size_t>(index);
     sum += b[i].homogeneous().normalized() * a[i].homogeneous().normalized().transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Svd3 svd = svd_of(sum);
   Eigen::Vector3d sign(1, 1, 1);
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose()))
-      .normalized();
+  if (svd.u.determinant() * svd.v.determinant() < 0) sign.z() = -1;
+  return Eigen::Quaterniond(Eigen::Matrix3d(svd.u * sign.asDiagonal() * svd.v.transpose())).normalized();
 }
 
 ModelChoice choose_model(Points a, Points b, double sigma, const Eigen::Matrix3d* essential,

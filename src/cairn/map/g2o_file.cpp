@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <iterator>
 #include <unordered_set>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/geometry/decompositions.h"
 #include "cairn/geometry/unit_rotation.h"
 
 namespace cairn {
@@ -61,8 +61,7 @@ Rigid3 parse_pose(const TextFile& file, const TextLine& line, std::size_t first)
 }
 
 void check_information(const TextFile& file, const TextLine& line, const Matrix6d& information) {
-  const Vector6d eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Matrix6d>(information, Eigen::EigenvaluesOnly).eigenvalues();
+  const Vector6d eigenvalues = eigen_of_symmetric(information).values;
   constexpr double kRounding = 1e-5;  // of the numbers in the file, six digits
   if (eigenvalues.minCoeff() >= -kRounding * eigenvalues.cwiseAbs().maxCoeff()) return;
   file.fail(

@@ -11,6 +11,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
+#include "cairn/geometry/covariance.h"
 #include "cairn/map/map.h"
 #include "cairn/map/map_file.h"
 
@@ -119,7 +120,7 @@ inline std::vector<Eigen::Matrix3d> scene_covariances(const Map& map) {
   for (const Landmark& landmark : map.landmarks()) {
     const Eigen::Vector3d& axis = landmark.point_in_world;
     covariances.emplace_back(Eigen::Vector3d(0.01, 0.04, 0.09).asDiagonal());
-    covariances.back() += 0.01 * axis * axis.transpose();
+    covariances.back() = as_covariance(covariances.back() + 0.01 * axis * axis.transpose());
   }
   return covariances;
 }

@@ -66,7 +66,7 @@ TEST(BlockCholesky, reads_the_lower_triangle_alone) {
   for (const auto method : kMethods) {
     BlockMatrix matrix = make_band(3, 2, 2);
     const Eigen::VectorXd truth = Eigen::VectorXd::LinSpaced(18, -1, 1), right = multiply(matrix, truth);
-    for (const std::size_t diagonal : {0, 3, 5})
+    for (const std::size_t diagonal : {0U, 3U, 5U})
       matrix.blocks[diagonal].triangularView<Eigen::StrictlyUpper>().setConstant(1e9);
     Eigen::VectorXd x;
     ASSERT_TRUE(make_block_cholesky(matrix, method)->solve(matrix, right, x));

@@ -72,7 +72,9 @@ void expect_agreement(const PeerCase& given, std::uint64_t seed) {
   const auto summary = peer.solve(options, ceres::DENSE_SCHUR);
   const BundleReport report = adjust_bundle(scene.problem, options);
   EXPECT_NEAR(report.cost_before / summary.initial_cost, 1, 1e-12);
-  EXPECT_NEAR(report.cost_after / summary.final_cost, 1, given.cost_tolerance);
+  EXPECT_LE(report.cost_after / summary.final_cost, 1 + given.cost_tolerance);
+  constexpr double kEarlierStop = 1e-5;  // of Ceres, whose cost is the larger one then
+  EXPECT_GE(report.cost_after / summary.final_cost, 1 - kEarlierStop);
   for (std::size_t i = 0; i < scene.true_cameras.size(); ++i)
     EXPECT_LT(left_perturbation(scene.problem.camera_from_world[i], peer.camera_from_world(i)).norm(),
               given.camera_tolerance);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/optimize/chordal_relaxation.h"
 
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 #include <utility>
+
+#include "cairn/geometry/decompositions.h"
 
 namespace cairn {
 namespace {
@@ -75,10 +76,10 @@ class BlockLeastSquares {
 };
 
 Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Matrix3d u = svd.matrixU();
-  if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
-  return Eigen::Quaterniond(u * svd.matrixV().transpose()).normalized();
+  const Svd3 svd = svd_of(matrix);
+  Eigen::Matrix3d u = svd.u;
+  if ((u * svd.v.transpose()).determinant() < 0) u.col(2) = -u.col(2);
+  return Eigen::Quaterniond(u * svd.v.transpose()).normalized();
 }
 
 /// First step, over X = R^T: X_b = R_ab^T X_a.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -131,7 +132,7 @@ TEST(LandmarkFit, counts_what_was_measured) {
   EXPECT_EQ(fit.kept, (std::vector<char>{1, 1, 1, 1, 0, 1}));
   EXPECT_EQ(fit.redundancy, 4 * 3 + 2 - 3);
   double squared_px = 0;
-  for (const std::size_t i : {0, 1, 2, 3, 5}) {
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 5U}) {
     const auto& [camera, seen] = track[i];
     const Eigen::Vector3d pixels =
         scene.rig.project(scene.cameras[static_cast<std::size_t>(camera)] * fit.point_in_world);

@@ -3,7 +3,6 @@
 
 #include <ceres/ceres.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <memory>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/decompositions.h"
 #include "cairn/optimize/chordal_relaxation.h"
 #include "cairn/optimize/pose_graph_residual.h"
 #include "cairn/optimize/pose_graph_structure.h"
@@ -62,8 +62,8 @@ class VertexManifold : public ceres::Manifold {
 
 /// S with S^T S = information. By eigenvalues, because information may be semi-definite.
 Matrix6d square_root(const Matrix6d& information) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
-  return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
+  const SymmetricEigen<6> eigen = eigen_of_symmetric(information);
+  return eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
 class EdgeCost : public ceres::SizedCostFunction<6, 7, 7> {

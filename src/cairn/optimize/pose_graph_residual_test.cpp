@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cairn/core/error.h"
 #include "cairn/core/random.h"
 

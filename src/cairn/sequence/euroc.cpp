@@ -5,6 +5,7 @@
 // may lie in a folder mav0. The images are raw.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cairn/core/error.h"

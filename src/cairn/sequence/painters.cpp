@@ -54,7 +54,8 @@ Painter wallpaper(const Color& color, int pictures) {
     canvas.add_noise({0.8, 8, 0.8, 13, 6}, random.next());
     canvas.scatter({45, 0.006, 0.07, 0.55F, 0.5F}, random);
     for (int i = 0; i < pictures; ++i) {
-      const Vector2d size(random.uniform(0.35, 0.9), random.uniform(0.35, 0.8));
+      const double height = random.uniform(0.35, 0.8), width = random.uniform(0.35, 0.9);
+      const Vector2d size(width, height);
       const double slot = canvas.width() / pictures;  // so that pictures do not hide each other
       const double x = std::max(0.05, i * slot + (slot - size.x()) * random.uniform(0.2, 0.8));
       const double y = random.uniform(0.35, 0.8);
@@ -139,7 +140,8 @@ Painter carton() {
     canvas.draw(rectangle({0, tape - 0.025}, {canvas.width(), tape + 0.025}, {205, 185, 140}, 0.8F));
     const Vector2d size(std::min(0.2, canvas.width() * 0.5), std::min(0.14, canvas.height() * 0.5));
     const Vector2d room(canvas.width() - size.x(), canvas.height() - size.y());
-    const Vector2d low(room.x() * random.uniform(0.1, 0.9), room.y() * random.uniform(0.1, 0.9));
+    const double low_y = room.y() * random.uniform(0.1, 0.9), low_x = room.x() * random.uniform(0.1, 0.9);
+    const Vector2d low(low_x, low_y);
     canvas.draw(rectangle(low, low + size, {238, 236, 230}));
     canvas.scatter({2500, 0.002, 0.02, 0.95F, 0.4F}, low + size / 10, low + size * 0.9, random);
     canvas.scatter({60, 0.005, 0.05, 0.7F, 0.6F}, random);

@@ -77,9 +77,9 @@ void PoseCollector::finish() {
                       "Record once the receiver has a fix, or correct the columns."});
   }
   if (left_out_.count > 0) {
+    const std::size_t rows = recorded_.poses.size() + static_cast<std::size_t>(left_out_.count);
     recorded_.warnings.push_back(fmt::format("{}: {} of {} rows left out, from {} on: {}.", left_out_.first,
-                                             left_out_.count, recorded_.poses.size() + left_out_.count,
-                                             left_out_.detail, kNoFix));
+                                             left_out_.count, rows, left_out_.detail, kNoFix));
   }
   if (repeated_.count > 0) {
     recorded_.warnings.push_back(fmt::format("{}: {}; {} such line{} left out, the first pose counts.",

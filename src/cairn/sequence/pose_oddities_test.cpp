@@ -29,8 +29,8 @@ class PoseOdditiesTest : public testing::Test, protected TestFolder {
 TEST_F(PoseOdditiesTest, equal_rows_at_a_stamp_count_once) {
   const char* const files[] = {
       "0.1 1 0 0 0 0 0 1\n0.1 1 0 0 0 0 0 1\n0.1 1 0 0 0 0 0 -1\n0.2 2 0 0 0 0 0 1\n",
-      "#timestamp [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z\n100000000,1,0,0,1,0,0,0\n"
-      "100000000,1,0,0,1,0,0,0\n",
+      ("#timestamp [ns],p_RS_R_x,p_RS_R_y,p_RS_R_z,q_RS_w,q_RS_x,q_RS_y,q_RS_z\n100000000,1,0,0,1,0,0,0\n"
+       "100000000,1,0,0,1,0,0,0\n"),
       "100000000,1,0,0,1,0,0,0\n100000000,1,0,0,1,0,0,0\n",
       "time,east,north,up,roll,pitch,heading\n0.1,1,0,0,0,0,0\n0.1,1,0,0,0,0,0\n",
   };

@@ -2,6 +2,7 @@
 // The readers on recordings by others; skipped where these are absent.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cairn/sequence/given_poses.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/sequence/room_scene.h"
 
+#include <cmath>
+
 #include "cairn/sequence/painters.h"
 
 namespace cairn {

@@ -68,7 +68,7 @@ void add_houses(SceneBuilder& scene, const Side& side, double out, double reach,
   for (double begin = -reach; begin < reach - 0.1;) {
     double width = random.uniform(6, 12);
     if (reach - begin - width < 5) width = reach - begin;  // no sliver at the end
-    const double height = 3.0 * (2 + random.index(3)) + random.uniform(0.3, 1.2);
+    const double storeys = 3.0 * (2 + random.index(3)), height = storeys + random.uniform(0.3, 1.2);
     const double front = out - facing * random.uniform(0, 1.2), middle = begin + width / 2;
     scene.add_wall(side.at(middle, front), facing * side.outwards, width, height, house_front());
     const double deep = front - facing * kDepth / 2;

@@ -2,6 +2,7 @@
 // What the tests of raw stereo share: a wall that is known at every point, and what cameras see of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "cairn/geometry/camera.h"

@@ -86,7 +86,7 @@ class MotionProbe {
     const Arrival first = frontend_(posed_[position]);
     if (first.failure) return std::nullopt;
     std::optional<SeenMotion> best;
-    for (const std::size_t step : {1, 3, 9}) {
+    for (const std::size_t step : {1U, 3U, 9U}) {
       if (position + step >= posed_.size()) break;
       const Arrival second = frontend_(posed_[position + step]);
       auto motion = second.failure ? std::nullopt : motion_between(rig_, first.observed, second.observed);

@@ -164,7 +164,7 @@ TEST_F(MatchToTracks, is_the_same_at_any_number_of_threads) {
 TEST(KeepUseful, keeps_what_has_a_disparity_or_a_match) {
   const auto points = test::points_ahead(6);
   SurveyFrame frame = test::see(points, 0, test::drive_pose(0));
-  for (const std::size_t feature : {0, 2, 3, 5}) test::forget_disparity(feature, frame);
+  for (const std::size_t feature : {0U, 2U, 3U, 5U}) test::forget_disparity(feature, frame);
   const ObservedFrame all = frame.observed;
   std::vector<TrackMatch> matches{{10, 3}, {11, 4}};
   keep_useful(frame, matches);

@@ -123,7 +123,7 @@ int find_peaks(const std::uint8_t* scores, std::ptrdiff_t stride, int begin, int
   return count;
 }
 
-constexpr int kTensorHalf = 3, kTensorSide = 2 * kTensorHalf + 1;
+[[maybe_unused]] constexpr int kTensorHalf = 3, kTensorSide = 2 * kTensorHalf + 1;
 
 #if defined(__SSE4_2__)
 /// Eight pixels of a row smoothed (1 2 1) and differentiated (-1 0 1) along the row.

@@ -69,9 +69,9 @@ class DistanceKernelsTest : public testing::TestWithParam<Case> {
 };
 
 TEST_P(DistanceKernelsTest, to_packed_is_the_definition) {
-  for (const std::size_t words : {2, 8, 16, 32, 34, 70}) {
-    for (const std::size_t queries : {1, 3, 4, 9}) {
-      for (const std::size_t groups : {1, 3, 4, 7}) {
+  for (const std::size_t words : {2U, 8U, 16U, 32U, 34U, 70U}) {
+    for (const std::size_t queries : {1U, 3U, 4U, 9U}) {
+      for (const std::size_t groups : {1U, 3U, 4U, 7U}) {
         const std::size_t bytes = 4 * words, columns = groups * kPackedLanes;
         const Bytes a = random_bytes(queries * bytes, words + queries),
                     b = random_bytes(columns * bytes, groups);
@@ -101,10 +101,10 @@ TEST_P(DistanceKernelsTest, extreme_bytes_do_not_overflow) {
 }
 
 TEST_P(DistanceKernelsTest, to_rows_is_the_definition) {
-  for (const std::size_t words64 : {1, 4, 8, 16, 17}) {
+  for (const std::size_t words64 : {1U, 4U, 8U, 16U, 17U}) {
     const std::size_t bytes = 8 * words64, rows = 50;
     const Bytes query = random_bytes(bytes, 1), all = random_bytes(rows * bytes, 2);
-    for (const std::size_t count : {0, 1, 7}) {
+    for (const std::size_t count : {0U, 1U, 7U}) {
       std::vector<std::int32_t> indices, distances(count + 1, -1);
       for (std::size_t k = 0; k < count; ++k)
         indices.push_back(static_cast<std::int32_t>((k * 37 + 5) % rows));

@@ -39,7 +39,7 @@ class NearestKernelsTest : public testing::TestWithParam<InstructionSet> {
 };
 
 TEST_P(NearestKernelsTest, finds_the_two_smallest_and_lower_places_first) {
-  for (const std::size_t count : {16, 32, 48, 1008}) {
+  for (const std::size_t count : {16U, 32U, 48U, 1008U}) {
     for (const std::uint32_t values : {1U, 3U, 50U, 100000U}) {
       for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const auto distances = random_distances(count, values, seed);

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+# Run by cairn_discover_suites: writes to LIST an add_test() for each test suite of EXECUTABLE.
+execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "${EXECUTABLE} --gtest_list_tests: ${failed}")
+endif()
+string(REGEX MATCHALL "(^|\n)[^ \n][^ \n]*\\.([ \n]|$)" lines "${listed}")
+set(tests "")
+foreach(line ${lines})
+  string(REGEX REPLACE "[ \n]|\\.[ \n]*$" "" suite "${line}")
+  set(cost 0)
+  if(suite IN_LIST LONG)
+    set(cost 200)
+  endif()
+  string(APPEND tests "add_test([==[${PREFIX}.${suite}]==] [==[${EXECUTABLE}]==] [==[--gtest_filter=${suite}.*]==])\n"
+                      "set_tests_properties([==[${PREFIX}.${suite}]==] PROPERTIES SKIP_RETURN_CODE 77 COST ${cost})\n")
+endforeach()
+if(tests STREQUAL "")
+  message(FATAL_ERROR "${EXECUTABLE} --gtest_list_tests names no suite")
+endif()
+file(WRITE ${LIST} "${tests}")
