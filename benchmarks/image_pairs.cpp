@@ -11,7 +11,7 @@
 #include "cairn/geometry/pnp_ransac.h"
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
-#include "cairn/optimize/pose_only.h"
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/sequence/simulate_room.h"
@@ -99,7 +99,7 @@ Rigid3 pose_by_peer(const Camera& camera, const GrayImage& first, const GrayImag
   }
   const PnpResult pose = solve_pnp_ransac(rig, points, seen, {});
   require(pose.found(), "the two views have a pose");
-  return refine_pose(rig, points, seen, pose.camera_from_world).camera_from_world;
+  return estimate_pose(rig, {points, seen}, pose.camera_from_world).camera_from_world;
 }
 
 DepthAt stereo_depth(const Sequence& sequence, const Frame& frame) {

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Run by cairn_discover_suites: writes to LIST an add_test() for each test suite of EXECUTABLE.
+cmake_policy(VERSION 3.25)
 execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE failed)
 if(failed)
   message(FATAL_ERROR "${EXECUTABLE} --gtest_list_tests: ${failed}")

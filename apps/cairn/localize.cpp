@@ -5,10 +5,8 @@
 #include "cairn/core/file.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/frontend/frontend.h"
-#include "cairn/localize/localizer.h"
-#include "cairn/localize/motion_check.h"
+#include "cairn/localize/localize_sequence.h"
 #include "cairn/map/map_view.h"
-#include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "common.h"
 #include "localize_outputs.h"
@@ -70,60 +68,6 @@ LocalizeParameters gather_parameters(const LocalizeArguments& arguments, const M
   return parameters;
 }
 
-/// Finds the images of a sequence one after the other, and keeps what was found.
-class LocalizeRun {
- public:
-  LocalizeRun(const Localizer& localizer, const Frontend& frontend, std::optional<MotionCheck> motion,
-              std::vector<std::optional<WorldFromCamera>> priors, bool follow)
-      : localizer_(localizer),
-        frontend_(frontend),
-        motion_(std::move(motion)),
-        priors_(std::move(priors)),
-        follow_(follow) {}
-
-  struct Item {
-    Arrival arrival;
-    LocalizedImage image;
-  };
-
-  /// Beside each other.
-  [[nodiscard]] Item produce(std::size_t index) const {
-    Item item{frontend_(index), {}};
-    if (item.arrival.error.empty() && !follow_)
-      localize(priors_.empty() ? std::nullopt : priors_[index], item);
-    return item;
-  }
-
-  /// In order; of an image that could be read.
-  void take(std::size_t index, Item&& item, const Sequence& sequence) {
-    if (follow_) localize(last_, item);
-    if (motion_) motion_->check(item.arrival.observed.stamp_ns, item.image.found);
-    if (item.image.found.verdict == Verdict::good) last_ = item.image.found.camera_from_world.inverse();
-    item.image.position = static_cast<std::int64_t>(index);
-    item.image.stamp_ns = item.arrival.observed.stamp_ns;
-    item.image.file = sequence.frames[index].color.filename().string();
-    item.image.feature_seconds = item.arrival.feature_seconds;
-    images_.push_back(std::move(item.image));
-  }
-
-  [[nodiscard]] const std::vector<LocalizedImage>& images() const { return images_; }
-
- private:
-  void localize(const std::optional<WorldFromCamera>& prior, Item& item) const {
-    Stopwatch watch;
-    item.image.found = localizer_.localize(item.arrival.observed, prior);
-    item.image.localize_seconds = watch.lap();
-  }
-
-  const Localizer& localizer_;
-  const Frontend& frontend_;
-  std::optional<MotionCheck> motion_;                   // none where nothing is known about time
-  std::vector<std::optional<WorldFromCamera>> priors_;  // none, or one for each image
-  bool follow_;                                         // the last pose is the prior of the next image
-  std::optional<WorldFromCamera> last_;
-  std::vector<LocalizedImage> images_;
-};
-
 int exit_code(const std::vector<LocalizedImage>& images) {
   for (const LocalizedImage& image : images)
     if (image.found.found()) return 0;
@@ -141,11 +85,6 @@ std::vector<std::optional<WorldFromCamera>> read_priors(const LocalizeArguments&
   return read_reported_poses(sequence, arguments.prior);
 }
 
-/// Nothing for images whose times are not known: separate photos may be anywhere.
-std::optional<MotionCheck> motion_check(const Sequence& sequence, const TrustOptions& trust) {
-  return sequence.has_times ? std::optional(MotionCheck(trust)) : std::nullopt;
-}
-
 /// Whether the pose of an image is the prior of the next one: only if they are of one camera on its way.
 bool follows(const LocalizeArguments& arguments, const Sequence& sequence, Progress& progress) {
   const bool is_asked = arguments.prior.path == kFollow;
@@ -154,28 +93,6 @@ bool follows(const LocalizeArguments& arguments, const Sequence& sequence, Progr
       "--prior last is ignored: these images have no times, so each is looked for in the whole map.\n"
       "  If they are a video, state its rate_hz in camera.yaml in their folder.");
   return false;
-}
-
-/// All images, as long as no one asks to stop; what is wrong with those that cannot be read.
-std::vector<std::string> run_all(LocalizeRun& run, const Sequence& sequence, const Executor& executor,
-                                 Progress& progress) {
-  SkippedFrames skipped(progress, "image");
-  const auto take = [&](std::size_t i, LocalizeRun::Item&& item) {
-    if (item.arrival.failure) {
-      skipped.skip(item.arrival.failure);
-    } else {
-      skipped.take();
-      run.take(i, std::move(item), sequence);
-    }
-    progress.update(static_cast<std::int64_t>(i) + 1);
-    return !progress.stop_requested();
-  };
-  progress.start("localising", static_cast<std::int64_t>(sequence.frames.size()), "images");
-  executor.ordered_pipeline<LocalizeRun::Item>(
-      sequence.frames.size(), [&](std::size_t i) { return run.produce(i); }, take);
-  progress.finish();
-  skipped.finish();
-  return skipped.messages();
 }
 
 }  // namespace
@@ -206,26 +123,28 @@ int run_localize(int argc, char** argv) {
                           observer_options_for(map.info(), parameters.features, parameters.contrast),
                           camera_for_queries(map.info(), sequence.calibration.camera));
   const Localizer localizer(map, camera, parameters.localize);
-  LocalizeRun run(localizer, frontend, motion_check(sequence, parameters.localize.trust),
-                  read_priors(arguments, sequence), follows(arguments, sequence, *progress));
-  summary.unreadable = run_all(run, sequence, executor, *progress);
+  const LocalizedSequence found = localize_sequence(
+      localizer, sequence, frontend,
+      {read_priors(arguments, sequence), follows(arguments, sequence, *progress), parameters.localize.trust},
+      executor, *progress);
+  summary.unreadable = found.unreadable;
   check.wait();
-  write_found_picture(arguments.map, run.images(), folder.work());
-  if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, run.images());
+  write_found_picture(arguments.map, found.images, folder.work());
+  if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, found.images);
 
   summary.images = sequence.frames.size();
   summary.stamps = describe_stamps(sequence);
   summary.camera = describe_camera(sequence.calibration.camera, camera);
-  summary.stopped = run.images().size() + summary.unreadable.size() < sequence.frames.size();
+  summary.stopped = found.images.size() + summary.unreadable.size() < sequence.frames.size();
   summary.threads = executor.threads();
   summary.total_seconds = watch.seconds();
-  write_file(folder.work() / "trajectory.txt", format_trajectory(run.images(), summary));
-  write_file(folder.work() / "localization.csv", format_localization_csv(run.images(), summary));
-  const std::string json = format_localize_json(run.images(), summary);
+  write_file(folder.work() / "trajectory.txt", format_trajectory(found.images, summary));
+  write_file(folder.work() / "localization.csv", format_localization_csv(found.images, summary));
+  const std::string json = format_localize_json(found.images, summary);
   write_file(folder.work() / "run.json", json);
   folder.commit();
-  arguments.common.json ? fmt::print("{}", json) : print_localize_summary(run.images(), summary);
-  return exit_code(run.images());
+  arguments.common.json ? fmt::print("{}", json) : print_localize_summary(found.images, summary);
+  return exit_code(found.images);
 }
 
 }  // namespace cairn::app

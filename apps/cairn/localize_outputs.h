@@ -4,18 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "cairn/localize/localizer.h"
+#include "cairn/localize/localize_sequence.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn::app {
-
-/// What became of one image.
-struct LocalizedImage {
-  std::int64_t position = 0, stamp_ns = 0;  ///< in the sequence
-  std::string file;                         ///< of the image
-  Localization found;
-  double feature_seconds = 0, localize_seconds = 0;
-};
 
 struct LocalizeSummary {
   std::string map, sequence, output;

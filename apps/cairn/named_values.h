@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cairn/optimize/robust_kernel.h"
+#include "cairn/geometry/robust_kernel.h"
 
 namespace cairn::app {
 

@@ -8,8 +8,8 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
-#include "cairn/optimize/pose_fit.h"
 #include "camera_argument.h"
 #include "commands.h"
 #include "named_values.h"
@@ -17,15 +17,15 @@
 namespace cairn::app {
 namespace {
 
-const NamedValues<PoseFitMethod> kMethods = {{"lm", PoseFitMethod::levenberg_marquardt},
-                                             {"gauss-newton", PoseFitMethod::gauss_newton}};
+const NamedValues<PoseMethod> kMethods = {{"lm", PoseMethod::levenberg_marquardt},
+                                          {"gauss-newton", PoseMethod::gauss_newton}};
 
 struct PnpArguments {
   CommonOptions common;
   std::string points, pixels, camera, start = "ransac", method = "lm", kernel = "none";
   double sigma_px = 1;
   bool trace = false;
-  PoseFitOptions fit;
+  PoseOptions fit{.selection = PoseSelection::all};
   RansacOptions ransac;
 };
 
@@ -132,7 +132,7 @@ struct PnpReport {
   std::size_t points = 0;
   std::optional<PnpResult> ransac;  ///< not with --start identity
   std::size_t used = 0;
-  PoseFit fit;
+  PoseEstimate fit;
   RansacReport judged;  ///< of the fit's pose, by all points; where the fit is ok
   double rms_px = 0;    ///< of the points used: root mean square of the distance in the image
 };
@@ -146,10 +146,10 @@ double rms_px_of(const PnpInput& input, const Rigid3& camera_from_world) {
   return std::sqrt(sum / static_cast<double>(input.seen.size()));
 }
 
-void fit_to(const PnpInput& chosen, const CameraFromWorld& start, const PoseFitOptions& options,
+void fit_to(const PnpInput& chosen, const CameraFromWorld& start, const PoseOptions& options,
             PnpReport& report) {
   report.used = chosen.points.size();
-  report.fit = fit_pose(chosen.rig, chosen.points, chosen.seen, start, options);
+  report.fit = estimate_pose(chosen.rig, {chosen.points, chosen.seen}, start, options);
   report.rms_px = rms_px_of(chosen, report.fit.camera_from_world);
 }
 
@@ -164,7 +164,7 @@ PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
     fit_to(inliers_of(input, report.ransac->inliers), report.ransac->camera_from_world, arguments.fit,
            report);
   }
-  if (report.fit.status == PoseFitStatus::ok)
+  if (report.fit.status == PoseStatus::ok)
     report.judged = judge_pose(input.rig, input.points, input.seen, report.fit.camera_from_world);
   return report;
 }
@@ -172,26 +172,26 @@ PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
 /// Why there is no pose; empty where there is one.
 std::string failure_of(const PnpReport& report) {
   if (report.ransac && !report.ransac->found()) return std::string(to_string(report.ransac->status));
-  if (report.fit.status != PoseFitStatus::ok) return std::string(to_string(report.fit.status));
+  if (report.fit.status != PoseStatus::ok) return std::string(to_string(report.fit.status));
   if (!report.judged.found()) return std::string(to_string(report.judged.status));
   return "";
 }
 
 /// Where steps are left, the pose so far is of use to who follows them; any other failure has none.
 bool has_pose(const PnpReport& report) {
-  return failure_of(report).empty() || report.fit.status == PoseFitStatus::not_converged;
+  return failure_of(report).empty() || report.fit.status == PoseStatus::not_converged;
 }
 
-void print_trace(const PoseFit& fit) {
+void print_trace(const PoseEstimate& fit) {
   fmt::print("{:>9} {:>18} {:>12} {:>9}\n", "iteration", "cost", "step", "lambda");
   for (std::size_t i = 0; i < fit.trace.size(); ++i) {
-    const PoseFitIteration& row = fit.trace[i];
+    const PoseIteration& row = fit.trace[i];
     fmt::print("{:>9} {:>18.10g} {:>12.4g} {:>9.2g}{}\n", i, row.cost, row.step, row.lambda,
                row.accepted ? "" : "  rejected");
   }
 }
 
-void print_pose(const PnpArguments& arguments, const PoseFit& fit) {
+void print_pose(const PnpArguments& arguments, const PoseEstimate& fit) {
   const Eigen::Matrix3d R = fit.camera_from_world.matrix3();
   for (int i = 0; i < 3; ++i)
     fmt::print("{:<13} {:12.9f} {:12.9f} {:12.9f} {:14.9f}\n",
@@ -199,7 +199,7 @@ void print_pose(const PnpArguments& arguments, const PoseFit& fit) {
                : i == 1 ? "camera"
                         : "",
                R(i, 0), R(i, 1), R(i, 2), fit.camera_from_world.translation[i]);
-  if (fit.status != PoseFitStatus::ok) return;
+  if (fit.status != PoseStatus::ok) return;
   const Vector6d deviation = fit.covariance.diagonal().cwiseSqrt();
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   fmt::print("std rotation  {:.3g} {:.3g} {:.3g} deg, by the noise of pixels alone\n",
@@ -215,14 +215,14 @@ void print_report(const PnpArguments& arguments, const PnpReport& report) {
     fmt::print("ransac        {} of {} points agree, {} samples, 10^{:.0f} false alarms expected\n",
                report.ransac->inliers.size(), report.points, report.ransac->iterations,
                report.ransac->log10_false_alarms);
-  const PoseFit& fit = report.fit;
+  const PoseEstimate& fit = report.fit;
   if (arguments.trace) print_trace(fit);
   fmt::print("points        {} used of {}\n", report.used, report.points);
   fmt::print("iterations    {}, {}\n", fit.iterations(), to_string(fit.status));
   fmt::print("cost          {:.10g}  half the sum of squares over sigma^2{}\n", fit.cost,
              arguments.kernel == "none" ? "" : ", with the kernel");
   fmt::print("residual      {:.6g} px RMS\n", report.rms_px);
-  if (!report.ransac && fit.status == PoseFitStatus::ok)
+  if (!report.ransac && fit.status == PoseStatus::ok)
     fmt::print("agreement     {} of {} points within the 95 % limit of sigma\n", report.judged.inliers.size(),
                report.points);
   if (has_pose(report)) print_pose(arguments, fit);
@@ -251,14 +251,14 @@ nlohmann::ordered_json to_json(const PnpReport& report) {
   json["iterations"] = report.fit.iterations();
   json["cost"] = report.fit.cost;
   json["rms_px"] = report.rms_px;
-  for (const PoseFitIteration& row : report.fit.trace)
+  for (const PoseIteration& row : report.fit.trace)
     json["trace"].push_back(
         {{"cost", row.cost}, {"step", row.step}, {"lambda", row.lambda}, {"accepted", row.accepted}});
   if (!has_pose(report)) return json;
   Eigen::Matrix<double, 3, 4> camera_from_world;
   camera_from_world << report.fit.camera_from_world.matrix3(), report.fit.camera_from_world.translation;
   json["camera_from_world"] = rows_of(camera_from_world);
-  if (report.fit.status != PoseFitStatus::ok) return json;
+  if (report.fit.status != PoseStatus::ok) return json;
   json["covariance"] = rows_of(report.fit.covariance);
   json["variance_factor"] = report.fit.variance_factor;
   return json;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a user of the library writes. Compiles as it is; with any of the MIX_ macros one line has its frames
 // mixed and must not compile (tests/compile/CMakeLists.txt).
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/rectification.h"
-#include "cairn/optimize/pose_fit.h"
 #include "cairn/sequence/trajectory.h"
 
 namespace cairn {
@@ -15,20 +15,19 @@ Rigid3 compose(const CameraFromWorld& camera_from_world, const WorldFromCamera& 
 #endif
 }
 
-PoseFit fit_from(const StampedPose& start, const Rig& rig,
-                 const std::vector<Eigen::Vector3d>& points_in_world, const std::vector<Observation>& seen) {
+PoseEstimate pose_from(const StampedPose& start, const Rig& rig, const Correspondences& correspondences) {
 #ifdef MIX_ARGUMENT
-  return fit_pose(rig, points_in_world, seen, start.world_from_camera);
+  return estimate_pose(rig, correspondences, start.world_from_camera);
 #else
-  return fit_pose(rig, points_in_world, seen, start.world_from_camera.inverse());
+  return estimate_pose(rig, correspondences, start.world_from_camera.inverse());
 #endif
 }
 
-StampedPose stamped(const PoseFit& fit) {
+StampedPose stamped(const PoseEstimate& estimate) {
 #ifdef MIX_MEMBER
-  return {0, fit.camera_from_world};
+  return {0, estimate.camera_from_world};
 #else
-  return {0, fit.camera_from_world.inverse()};
+  return {0, estimate.camera_from_world.inverse()};
 #endif
 }
 

@@ -13,7 +13,7 @@ constexpr double kMaxSizeRatio = 1.5;      // of found to expected: two levels o
 
 }  // namespace
 
-std::optional<PredictedPlace> predict_place(const FrameView& view, const Eigen::Vector3d& point_in_world,
+std::optional<PredictedPlace> predict_place(const PosedFrame& view, const Eigen::Vector3d& point_in_world,
                                             const Appearance& appearance, double radius_px) {
   constexpr double kMinDepth = 1e-3;  // metres
   const Eigen::Vector3d point = view.camera_from_world * point_in_world;

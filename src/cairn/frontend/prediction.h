@@ -18,8 +18,8 @@ struct Appearance {
   Eigen::Vector3d centre_in_world;  ///< of the camera then
 };
 
-/// A view to search in: a frame's features and where its camera is thought to be.
-struct FrameView {
+/// A frame, and where its camera is taken to be.
+struct PosedFrame {
   const Rig& rig;
   const ObservedFrame& observed;
   Rigid3 camera_from_world;
@@ -28,7 +28,7 @@ struct FrameView {
 /// Where a point should be seen: nothing behind the camera, from a direction more than 60 degrees away from
 /// that of its appearance, or at more than five times its distance or less than a fifth. `radius_px` is for
 /// the lowest pyramid level and grows with the expected one.
-[[nodiscard]] std::optional<PredictedPlace> predict_place(const FrameView& view,
+[[nodiscard]] std::optional<PredictedPlace> predict_place(const PosedFrame& view,
                                                           const Eigen::Vector3d& point_in_world,
                                                           const Appearance& appearance, double radius_px);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/p3p.h"
 #include "cairn/geometry/point_pairs.h"
 #include "cairn/geometry/pose_equations.h"
@@ -52,21 +53,23 @@ struct PnpProblem {
   [[nodiscard]] double limit(std::size_t i) const { return squared_error_limit(seen[i]); }
 
   bool refine(std::span<const std::int32_t> inliers, Model& pose) const {
-    constexpr std::size_t kFewest = 4;
-    constexpr int kIterations = 3;
-    if (inliers.size() < kFewest) return false;
-    for (int iteration = 0; iteration < kIterations; ++iteration) {
-      PoseEquations equations;
-      for (const std::int32_t index : inliers) {
-        const auto i = static_cast<std::size_t>(index);
-        const Eigen::Vector3d in_camera = pose.rotation * points[i] + pose.translation;
-        if (in_camera.z() > 0) equations.add(rig, in_camera, seen[i], 1.0);
-      }
-      const auto step = equations.solve();
-      if (!step) return false;
-      pose = pose_of(perturb_left(*step, {Eigen::Quaterniond(pose.rotation), pose.translation}));
+    std::vector<Eigen::Vector3d> inlier_points;
+    std::vector<Observation> inlier_observations;
+    for (const std::int32_t index : inliers) {
+      inlier_points.push_back(points[static_cast<std::size_t>(index)]);
+      inlier_observations.push_back(seen[static_cast<std::size_t>(index)]);
     }
-    return true;
+    const CameraFromWorld start({Eigen::Quaterniond(pose.rotation), pose.translation});
+    constexpr int kIterations = 3;  // RANSAC asks again with the inliers of the result
+    const PoseEstimate found = estimate_pose(rig, {inlier_points, inlier_observations}, start,
+                                             {.selection = PoseSelection::all,
+                                              .method = PoseMethod::gauss_newton,
+                                              .kernel = RobustKernel::none,
+                                              .max_iterations = kIterations});
+    const bool improved = found.status == PoseStatus::ok || found.status == PoseStatus::not_converged ||
+                          found.status == PoseStatus::rising_cost;
+    if (improved) pose = pose_of(found.camera_from_world);
+    return improved;
   }
 
   /// A wrong pixel lies in the disc around the place where the pose has it; a wrong disparity makes it rarer.

@@ -48,9 +48,9 @@ TEST(PoseEquations, tell_which_observations_are_usable) {
 TEST(PoseEquations, have_no_solution_where_observations_do_not_determine_the_pose) {
   PoseEquations equations;
   const Eigen::Vector3d points[] = {{0, 0, 2}, {0.5, 0, 2}, {-0.3, 0, 2}};  // free to turn about their line
-  for (const auto& point : points) equations.add(kRig, point, {320, 240}, 1.0);
+  for (const auto& point : points) equations.add(whiten(kRig, point, {320, 240}), 1.0);
   EXPECT_FALSE(equations.solve());
-  equations.add(kRig, {0.1, 0.4, 2.5}, {320, 240}, 1.0);
+  equations.add(whiten(kRig, {0.1, 0.4, 2.5}, {320, 240}), 1.0);
   EXPECT_TRUE(equations.solve());
 }
 

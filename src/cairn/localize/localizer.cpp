@@ -13,11 +13,25 @@
 namespace cairn {
 namespace {
 
-std::vector<Sight> sights_of(const std::vector<LandmarkMatch>& matches) {
-  std::vector<Sight> sights;
-  for (const LandmarkMatch& match : matches)
-    sights.push_back({match.point_in_world, match.covariance, match.seen});
-  return sights;
+/// What the pose is estimated from.
+struct MatchedPoints {
+  std::vector<Eigen::Vector3d> points_in_world;
+  std::vector<Observation> observations;
+  std::vector<Eigen::Matrix3d> covariances;
+
+  [[nodiscard]] Correspondences correspondences() const {
+    return {points_in_world, observations, covariances};
+  }
+};
+
+MatchedPoints points_of(const std::vector<LandmarkMatch>& matches) {
+  MatchedPoints matched;
+  for (const LandmarkMatch& match : matches) {
+    matched.points_in_world.push_back(match.point_in_world);
+    matched.observations.push_back(match.seen);
+    matched.covariances.push_back(match.covariance);
+  }
+  return matched;
 }
 
 /// The observation with the landmark's own uncertainty added, as it looks from the distance at which the
@@ -168,14 +182,14 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
       keyframes.push_back(keyframe);
   found.matches = match_predicted_landmarks(map_, keyframes, {camera_.rig, observed, first.camera_from_world},
                                             options_.radius_px);
-  const std::vector<Sight> sights = sights_of(found.matches);
-  const Resection resection = resect(camera_.rig, sights, first.camera_from_world);
-  if (!resection.solved) return found;
-  found.camera_from_world = resection.camera_from_world;
-  found.inliers = resection.inliers;
-  found.variance_factor = resection.variance_factor;
-  found.rms_px = resection.rms_px;
-  found.precision = assess_precision(camera_.rig, sights, resection);
+  const MatchedPoints matched = points_of(found.matches);
+  const PoseEstimate pose = estimate_pose(camera_.rig, matched.correspondences(), first.camera_from_world);
+  if (!pose.found()) return found;
+  found.camera_from_world = pose.camera_from_world;
+  found.inliers = pose.inliers;
+  found.variance_factor = pose.variance_factor;
+  found.rms_px = pose.rms_px;
+  found.precision = assess_precision(camera_.rig, matched.correspondences(), pose);
   found.independent = count_independent(found, matches);
   found.cells = count_cells(found, camera_);
   judge(found);

@@ -2,10 +2,10 @@
 #include "cairn/localize/matches.h"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
+#include <utility>
 
-#include "cairn/frontend/prediction.h"
+#include "cairn/frontend/guided_search.h"
 
 namespace cairn {
 namespace {
@@ -56,36 +56,6 @@ std::vector<LandmarkMatch> with_points(const MapView& map, const ObservedFrame& 
   return matches;
 }
 
-/// The landmarks of keyframes that a view should show.
-struct Targets {
-  std::vector<PredictedPlace> places;
-  std::vector<LandmarkId> landmarks;
-  std::vector<const ViewedKeyframe*> keyframes;
-  std::vector<const std::uint8_t*> descriptors;
-};
-
-void add_targets(const MapView& map, const ViewedKeyframe& keyframe, const FrameView& view, double radius_px,
-                 Targets& targets) {
-  Appearance appearance;
-  appearance.centre_in_world = keyframe.world_from_camera.translation;
-  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-    appearance.keypoint = keyframe.keypoints[i];
-    const Eigen::Vector3d point = map.landmark(keyframe.landmarks[i]).point_in_world;
-    const auto place = predict_place(view, point, appearance, radius_px);
-    if (!place) continue;
-    targets.places.push_back(*place);
-    targets.landmarks.push_back(keyframe.landmarks[i]);
-    targets.keyframes.push_back(&keyframe);
-    targets.descriptors.push_back(keyframe.descriptors.row(i));
-  }
-}
-
-Descriptors gather(const std::vector<const std::uint8_t*>& rows, const Descriptors& kind) {
-  Descriptors gathered(kind.norm(), kind.bytes(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) std::memcpy(gathered.row(i), rows[i], gathered.stride());
-  return gathered;
-}
-
 }  // namespace
 
 std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& keyframes,
@@ -101,19 +71,24 @@ std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& 
 }
 
 std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map, const Keyframes& keyframes,
-                                                     const PosedQuery& query, double radius_px) {
-  const Features& features = query.observed.features;
-  const FrameView view{query.rig, query.observed, query.camera_from_world};
-  Targets targets;
-  for (const auto& keyframe : keyframes) add_targets(map, *keyframe, view, radius_px, targets);
-  const MatchOptions options{descriptor_limit(features.descriptors), 0, true};
-  std::vector<Candidate> candidates;
-  for (const Match& match : match_predicted(targets.places, gather(targets.descriptors, features.descriptors),
-                                            features, options)) {
-    const auto target = static_cast<std::size_t>(match.query);
-    candidates.push_back({match.distance, match.train, targets.landmarks[target], targets.keyframes[target]});
+                                                     const PosedFrame& frame, double radius_px) {
+  GuidedSearch search(frame, radius_px);
+  std::vector<std::pair<const ViewedKeyframe*, std::size_t>> shown;  // and the feature there
+  for (const auto& keyframe : keyframes) {
+    for (std::size_t i = 0; i < keyframe->landmarks.size(); ++i) {
+      search.add(
+          shown.size(), map.landmark(keyframe->landmarks[i]).point_in_world,
+          {&keyframe->descriptors, i, keyframe->keypoints[i], keyframe->world_from_camera.translation});
+      shown.emplace_back(keyframe.get(), i);
+    }
   }
-  return with_points(map, query.observed, keep_nearest(std::move(candidates), features.keypoints.size()));
+  std::vector<Candidate> candidates;
+  for (const GuidedMatch& match : search.match()) {
+    const auto& [keyframe, feature] = shown[match.point];
+    candidates.push_back({match.distance, match.feature, keyframe->landmarks[feature], keyframe});
+  }
+  return with_points(map, frame.observed,
+                     keep_nearest(std::move(candidates), frame.observed.features.keypoints.size()));
 }
 
 }  // namespace cairn

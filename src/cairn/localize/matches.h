@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "cairn/frontend/prediction.h"
 #include "cairn/map/map_view.h"
 #include "cairn/map/observed_frame.h"
 
@@ -28,17 +29,10 @@ using Keyframes = std::vector<std::shared_ptr<const ViewedKeyframe>>;
 [[nodiscard]] std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& keyframes,
                                                          const ObservedFrame& observed, double max_ratio);
 
-/// Where an image is thought to have been seen from.
-struct PosedQuery {
-  const Rig& rig;
-  const ObservedFrame& observed;
-  CameraFromWorld camera_from_world;
-};
-
 /// Matches of the landmarks that the keyframes show with features near the places where the pose has them,
 /// as far as `radius_px` at the lowest pyramid level. Otherwise as match_keyframes, without the ratio.
 [[nodiscard]] std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map,
                                                                    const Keyframes& keyframes,
-                                                                   const PosedQuery& query, double radius_px);
+                                                                   const PosedFrame& frame, double radius_px);
 
 }  // namespace cairn

@@ -14,13 +14,13 @@ namespace {
 /// 1e-3 two-sided, and one-sided for what an inlier test misses.
 constexpr double kTwoSided = 3.291, kOneSided = 3.090;
 
-Matrix6d unit_cofactor(const Rig& rig, std::span<const Sight> sights, const Resection& resection) {
+Matrix6d unit_cofactor(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
   Matrix6d information = Matrix6d::Zero();
-  for (const std::int32_t index : resection.inliers) {
-    const Sight& sight = sights[static_cast<std::size_t>(index)];
+  for (const std::int32_t index : pose.inliers) {
+    const auto i = static_cast<std::size_t>(index);
     Eigen::Matrix<double, 3, 6> jacobian =
-        observation_jacobian(rig, resection.camera_from_world * sight.point_in_world);
-    if (!sight.seen.has_disparity()) jacobian.row(2).setZero();
+        observation_jacobian(rig, pose.camera_from_world * correspondences.points_in_world[i]);
+    if (!correspondences.observations[i].has_disparity()) jacobian.row(2).setZero();
     information.noalias() += jacobian.transpose() * jacobian;
   }
   return information.ldlt().solve(Matrix6d::Identity());
@@ -29,15 +29,17 @@ Matrix6d unit_cofactor(const Rig& rig, std::span<const Sight> sights, const Rese
 /// By how much an axis can be off because of one inlier that is wrong unnoticed. The test of observation i
 /// sees the share 1 - h of its error, h being its leverage; so an error of (limit + k) / (1 - h) standard
 /// deviations is missed with the probability of k at most, and moves the pose by the gain times that.
-Vector6d unnoticed_error(const Rig& rig, std::span<const Sight> sights, const Resection& resection) {
+Vector6d unnoticed_error(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
   Vector6d largest = Vector6d::Zero();
-  for (const std::int32_t index : resection.inliers) {
-    const Sight& sight = sights[static_cast<std::size_t>(index)];
-    const WhitenedSight whitened = whiten(rig, resection.camera_from_world, sight);
-    const Eigen::Matrix<double, 6, 3> gain = resection.covariance * whitened.jacobian.transpose();
+  for (const std::int32_t index : pose.inliers) {
+    const auto i = static_cast<std::size_t>(index);
+    const Observation& seen = correspondences.observations[i];
+    const WhitenedError whitened = whiten(rig, pose.camera_from_world, correspondences.points_in_world[i],
+                                          seen, correspondences.covariances[i]);
+    const Eigen::Matrix<double, 6, 3> gain = pose.covariance * whitened.jacobian.transpose();
     constexpr double kMostLeverage = 0.999;
     const double leverage = std::min(kMostLeverage, (whitened.jacobian * gain).trace());
-    const double missed = (std::sqrt(squared_error_limit(sight.seen)) + kOneSided) / (1 - leverage);
+    const double missed = (std::sqrt(squared_error_limit(seen)) + kOneSided) / (1 - leverage);
     largest = largest.cwiseMax(gain.rowwise().norm() * missed);
   }
   return largest;
@@ -45,15 +47,16 @@ Vector6d unnoticed_error(const Rig& rig, std::span<const Sight> sights, const Re
 
 }  // namespace
 
-Precision assess_precision(const Rig& rig, std::span<const Sight> sights, const Resection& resection) {
-  require(resection.solved, "the precision of a pose that was found");
+Precision assess_precision(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
+  require(pose.found(), "the precision of a pose that was found");
+  require(correspondences.covariances.size() == correspondences.size(), "each point has a covariance");
   Precision precision;
-  const double scale = std::max(1.0, resection.variance_factor);
-  precision.covariance = scale * resection.covariance;
-  precision.dilution = unit_cofactor(rig, sights, resection).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const double scale = std::max(1.0, pose.variance_factor);
+  precision.covariance = scale * pose.covariance;
+  precision.dilution = unit_cofactor(rig, correspondences, pose).diagonal().cwiseMax(0.0).cwiseSqrt();
   precision.gdop = precision.dilution.tail<3>().norm();
   const Vector6d sigma = precision.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  precision.protection = kTwoSided * sigma + std::sqrt(scale) * unnoticed_error(rig, sights, resection);
+  precision.protection = kTwoSided * sigma + std::sqrt(scale) * unnoticed_error(rig, correspondences, pose);
   return precision;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-
-#include "cairn/localize/resection.h"
+#include "cairn/geometry/camera_pose.h"
 
 namespace cairn {
 
@@ -26,8 +24,9 @@ struct Precision {
   Vector6d protection = Vector6d::Zero();
 };
 
-/// Of a solved resection. Its covariance is scaled by the variance factor where that is above 1.
-[[nodiscard]] Precision assess_precision(const Rig& rig, std::span<const Sight> sights,
-                                         const Resection& resection);
+/// Computes the precision of `pose`, which must be found from these correspondences. Scales the covariance by
+/// max(1, variance_factor).
+[[nodiscard]] Precision assess_precision(const Rig& rig, const Correspondences& correspondences,
+                                         const PoseEstimate& pose);
 
 }  // namespace cairn

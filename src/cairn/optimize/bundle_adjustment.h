@@ -8,7 +8,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/geometry/rig.h"
-#include "cairn/optimize/robust_kernel.h"
+#include "cairn/geometry/robust_kernel.h"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 
 #include "cairn/core/progress.h"
 #include "cairn/map/pose_graph.h"
-#include "cairn/optimize/robust_kernel.h"
+#include "cairn/geometry/robust_kernel.h"
 
 namespace cairn {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/final_poses.h"
 
-#include "cairn/optimize/pose_only.h"
+#include "cairn/geometry/camera_pose.h"
 
 namespace cairn {
 
@@ -31,11 +31,10 @@ void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const R
   }
   const Rigid3 world_from_reference = map.world_from_camera(*track.reference);
   const Rigid3 start = (world_from_reference * track.reference_from_frame).inverse();
-  PoseOnlyOptions solver;
-  solver.begin_with_all = true;
-  const PoseOnlyResult pose = refine_pose(map.rig(), points, observations, CameraFromWorld(start), solver);
+  const PoseEstimate pose = estimate_pose(map.rig(), {points, observations}, CameraFromWorld(start),
+                                          {.selection = PoseSelection::inliers_from_all});
   const auto inliers = static_cast<int>(pose.inliers.size());
-  if (!pose.solved || inliers < options.min_inliers || 2 * inliers < track.inliers) return;
+  if (!pose.found() || inliers < options.min_inliers || 2 * inliers < track.inliers) return;
   track.reference_from_frame = world_from_reference.inverse() * pose.camera_from_world.inverse();
 }
 

@@ -18,34 +18,20 @@ Appearance nearest_appearance(const Map& map, const Landmark& landmark,
   return {&features.descriptors, row, features.keypoints[row], keyframe.world_from_camera.translation};
 }
 
-SearchTargets landmark_targets(const Map& map, std::span<const LandmarkId> landmarks, const FrameView& view,
-                               double radius_px) {
-  SearchTargets targets;
-  const Eigen::Vector3d centre = view.camera_from_world.inverse().translation;
-  for (const LandmarkId id : landmarks) {
-    const Landmark& landmark = map[id];
-    const Appearance appearance = nearest_appearance(map, landmark, centre);
-    const auto place = predict_place(view, landmark.point_in_world, appearance, radius_px);
-    if (!place) continue;
-    targets.points_in_world.push_back(landmark.point_in_world);
-    targets.landmarks.push_back(id);
-    targets.places.push_back(*place);
-    targets.appearances.push_back(appearance);
+std::vector<FoundPoint> find_landmarks(const Map& map, std::span<const LandmarkId> landmarks,
+                                       const PosedFrame& frame, double radius_px,
+                                       std::span<const LandmarkId> occupied) {
+  GuidedSearch search(frame, radius_px);
+  const Eigen::Vector3d centre = frame.camera_from_world.inverse().translation;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const Landmark& landmark = map[landmarks[i]];
+    search.add(i, landmark.point_in_world, nearest_appearance(map, landmark, centre));
   }
-  return targets;
-}
-
-std::vector<FoundPoint> find_targets(const SearchTargets& targets, const FrameView& view,
-                                     std::span<const LandmarkId> occupied, const MatchOptions& options) {
   std::vector<FoundPoint> found;
-  if (targets.size() == 0) return found;
-  const auto matches =
-      match_predicted(targets.places, gather(targets.appearances), view.observed.features, options);
-  for (const Match& match : matches) {
-    const auto target = static_cast<std::size_t>(match.query),
-               feature = static_cast<std::size_t>(match.train);
-    if (!occupied.empty() && occupied[feature].valid()) continue;
-    found.push_back({match.train, targets.landmarks[target], targets.points_in_world[target]});
+  for (const GuidedMatch& match : search.match()) {
+    if (!occupied.empty() && occupied[static_cast<std::size_t>(match.feature)].valid()) continue;
+    const LandmarkId id = landmarks[match.point];
+    found.push_back({match.feature, id, map[id].point_in_world});
   }
   return found;
 }

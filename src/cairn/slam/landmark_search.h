@@ -4,22 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "cairn/frontend/prediction.h"
+#include "cairn/frontend/guided_search.h"
 #include "cairn/map/map.h"
 
 namespace cairn {
 
-/// Points to look for in a view, each with the place where it should be seen.
-struct SearchTargets {
-  std::vector<Eigen::Vector3d> points_in_world;
-  std::vector<LandmarkId> landmarks;  ///< not valid for a point that is no landmark
-  std::vector<PredictedPlace> places;
-  std::vector<Appearance> appearances;
-
-  [[nodiscard]] std::size_t size() const { return places.size(); }
-};
-
-/// A feature of a view shows a point.
+/// A feature of a frame shows a point.
 struct FoundPoint {
   std::int32_t feature = -1;
   LandmarkId landmark;  ///< not valid for a point that is no landmark
@@ -30,15 +20,11 @@ struct FoundPoint {
 [[nodiscard]] Appearance nearest_appearance(const Map& map, const Landmark& landmark,
                                             const Eigen::Vector3d& centre_in_world);
 
-/// Those of the landmarks (none erased) that the view should show, with the windows they should lie in.
-[[nodiscard]] SearchTargets landmark_targets(const Map& map, std::span<const LandmarkId> landmarks,
-                                             const FrameView& view, double radius_px);
-
-/// Matches targets with features by descriptor, within the windows. A target whose feature shows a landmark
-/// already (`occupied`, one per feature; empty: none) is another of the same thing, and is not found. Ordered
-/// by target.
-[[nodiscard]] std::vector<FoundPoint> find_targets(const SearchTargets& targets, const FrameView& view,
-                                                   std::span<const LandmarkId> occupied,
-                                                   const MatchOptions& options);
+/// Looks in the frame for those of the landmarks (none erased) that it should show, by descriptor, in windows
+/// of `radius_px` (GuidedSearch). A landmark whose feature shows one already (`occupied`, one per feature;
+/// empty: none) is another of the same thing, and is not found. Ordered as `landmarks`.
+[[nodiscard]] std::vector<FoundPoint> find_landmarks(const Map& map, std::span<const LandmarkId> landmarks,
+                                                     const PosedFrame& frame, double radius_px,
+                                                     std::span<const LandmarkId> occupied = {});
 
 }  // namespace cairn

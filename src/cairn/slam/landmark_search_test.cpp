@@ -16,7 +16,7 @@ constexpr double kRadius = 4;
 /// A point two metres ahead; what is predicted for it when it was seen from `centre`, 10 px large.
 std::optional<PredictedPlace> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
   const ObservedFrame observed;
-  const FrameView view{test::kRig, observed, {}};
+  const PosedFrame view{test::kRig, observed, {}};
   Appearance appearance;
   appearance.keypoint.size = 10;
   appearance.keypoint.sigma_px = sigma_px;
@@ -42,7 +42,7 @@ TEST(PredictPlace, is_where_the_point_projects_to) {
 
 TEST(PredictPlace, is_nowhere_behind_the_camera) {
   const ObservedFrame observed;
-  const FrameView view{test::kRig, observed, {}};
+  const PosedFrame view{test::kRig, observed, {}};
   Appearance appearance;
   appearance.centre_in_world = {0, 0, 2};  // looking back
   EXPECT_FALSE(predict_place(view, {0, 0, -1}, appearance, kRadius));
@@ -98,18 +98,21 @@ TEST(LandmarkSearch, the_look_is_that_of_the_nearest_keyframe) {
 struct Search {
   test::MapMaker maker = two_keyframes();
   test::View seen = maker.world.see(test::aside(0.25), 2);
-  FrameView view{maker.map.rig(), seen.observed, test::aside(0.25).inverse()};
-  SearchTargets targets = landmark_targets(maker.map, maker.map.landmark_ids(), view, kRadius);
-  MatchOptions matching{descriptor_limit(seen.observed.features.descriptors), 0, true};
 
   [[nodiscard]] LandmarkId landmark_at(std::int32_t feature) const {
     return maker.known[seen.points[static_cast<std::size_t>(feature)]].landmark;
+  }
+  /// All landmarks, from a pose that is `aside_m` wrong.
+  [[nodiscard]] std::vector<FoundPoint> find(std::span<const LandmarkId> occupied = {},
+                                             double aside_m = 0) const {
+    const PosedFrame frame{maker.map.rig(), seen.observed, test::aside(0.25 + aside_m).inverse()};
+    return find_landmarks(maker.map, maker.map.landmark_ids(), frame, kRadius, occupied);
   }
 };
 
 TEST(LandmarkSearch, finds_what_a_frame_shows) {
   const Search search;
-  const auto found = find_targets(search.targets, search.view, {}, search.matching);
+  const auto found = search.find();
   EXPECT_GT(found.size(), 150U);
   EXPECT_GE(found.size() + 5, search.seen.points.size());
   for (const FoundPoint& one : found) {
@@ -122,27 +125,46 @@ TEST(LandmarkSearch, leaves_features_with_a_landmark_out) {
   const Search search;
   std::vector<LandmarkId> occupied(search.seen.points.size());
   for (std::size_t i = 0; i < occupied.size(); i += 2) occupied[i] = {0};
-  const auto found = find_targets(search.targets, search.view, occupied, search.matching);
+  const auto found = search.find(occupied);
   EXPECT_GT(found.size(), 70U);
   for (const FoundPoint& one : found) EXPECT_EQ(one.feature % 2, 1);
 }
 
 TEST(LandmarkSearch, finds_nothing_where_it_is_not_seen) {
-  Search search;
-  for (PredictedPlace& place : search.targets.places) place.u += 3 * kRadius;
-  EXPECT_TRUE(find_targets(search.targets, search.view, {}, search.matching).empty());
+  EXPECT_TRUE(Search().find({}, 1.0).empty());  // 50 px aside at 10 m
 }
 
 TEST(LandmarkSearch, finds_nothing_that_looks_different) {
   Search search;
   for (test::WorldPoint& point : search.maker.world.points) point.look += 1000;
   search.seen = search.maker.world.see(test::aside(0.25), 2);
-  EXPECT_TRUE(find_targets(search.targets, search.view, {}, search.matching).empty());
+  EXPECT_TRUE(search.find().empty());
 }
 
-TEST(LandmarkSearch, without_targets_there_is_nothing_to_find) {
+TEST(LandmarkSearch, without_landmarks_there_is_nothing_to_find) {
   const Search search;
-  EXPECT_TRUE(find_targets({}, search.view, {}, search.matching).empty());
+  const PosedFrame frame{search.maker.map.rig(), search.seen.observed, test::aside(0.25).inverse()};
+  EXPECT_TRUE(find_landmarks(search.maker.map, {}, frame, kRadius).empty());
+}
+
+/// Two points at nearly one pixel that look alike: the window of one may be widened, and a feature goes to
+/// one of them.
+TEST(GuidedSearch, keeps_the_numbers_and_widens_single_windows) {
+  const Search search;
+  const Map& map = search.maker.map;
+  const PosedFrame frame{map.rig(), search.seen.observed, test::aside(0.30).inverse()};
+  const auto ids = map.landmark_ids();
+  const auto count = [&](double extra_px) {
+    GuidedSearch guided(frame, 1);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      guided.add(7 + i, map[ids[i]].point_in_world, nearest_appearance(map, map[ids[i]], {0, 0, 0}),
+                 extra_px);
+    const auto matches = guided.match();
+    for (const GuidedMatch& match : matches)
+      EXPECT_EQ(ids[match.point - 7], search.landmark_at(match.feature));
+    return matches.size();
+  };
+  EXPECT_GT(count(20), count(0) + 50);
 }
 
 }  // namespace

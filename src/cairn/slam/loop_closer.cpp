@@ -8,15 +8,11 @@
 #include "cairn/slam/local_map.h"
 #include "cairn/slam/mapping.h"
 #include "cairn/slam/motion_limit.h"
+#include "cairn/slam/place_verification.h"
 #include "cairn/slam/relocalizer.h"
 
 namespace cairn {
 namespace {
-
-struct Attempt {
-  LoopHypothesis loop;
-  bool verified = false;
-};
 
 /// Whether most landmarks that the frame shows at the place found fit its present place, too.
 bool agrees_with_map(const Map& map, KeyframeId keyframe, const TrackedFrame& found) {
@@ -32,17 +28,16 @@ bool agrees_with_map(const Map& map, KeyframeId keyframe, const TrackedFrame& fo
   return 2 * fit > seen;
 }
 
-Attempt attempt(const Map& map, KeyframeId candidate, KeyframeId current, const SlamOptions& options) {
-  const auto points = points_of(map, candidate);
+/// A loop from the current keyframe to a candidate that shows the same place.
+std::optional<LoopHypothesis> loop_to(const Map& map, KeyframeId candidate, KeyframeId current,
+                                      const SlamOptions& options) {
   const ObservedFrame& observed = map[current].observed;
-  const Motion motion = estimate_motion(map.rig(), {map[candidate].observed, points}, observed, options);
-  const KeyframeDecision decision = decide_loop(motion, options);
-  if (decision == KeyframeDecision::not_matched || decision == KeyframeDecision::too_far) return {};
-  TrackedFrame found = placed_by(map, candidate, motion, observed.observations.size());
-  if (!refine_in_map(map, observed, options, found) || found.inliers < options.loop_min_inliers) return {};
-  const Rigid3 candidate_from_current = map[candidate].world_from_camera.inverse() * found.world_from_camera;
-  const bool agrees = map[candidate].part == map[current].part && agrees_with_map(map, current, found);
-  return {{candidate, current, candidate_from_current, found.inliers, agrees}, true};
+  auto found = verify_place(map, candidate, observed, options);
+  if (!found || !refine_in_map(map, observed, options, *found) || found->inliers < options.loop_min_inliers)
+    return std::nullopt;
+  const Rigid3 candidate_from_current = map[candidate].world_from_camera.inverse() * found->world_from_camera;
+  const bool agrees = map[candidate].part == map[current].part && agrees_with_map(map, current, *found);
+  return LoopHypothesis{candidate, current, candidate_from_current, found->inliers, agrees};
 }
 
 PoseGraph::Edge edge_of(const Map& map, const LoopHypothesis& loop) {
@@ -89,14 +84,14 @@ std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
 
 std::optional<LoopHypothesis> LoopCloser::verify(KeyframeId keyframe) {
   const auto ids = candidates(keyframe);
-  const auto attempts = executor_.map<Attempt>(
-      ids.size(), [&](std::size_t i) { return attempt(map_, ids[i], keyframe, options_); });
+  const auto loops = executor_.map<std::optional<LoopHypothesis>>(
+      ids.size(), [&](std::size_t i) { return loop_to(map_, ids[i], keyframe, options_); });
   report_.tried += static_cast<int>(ids.size());
   std::optional<LoopHypothesis> best;
-  for (const Attempt& one : attempts) {
-    if (!one.verified) continue;
+  for (const auto& loop : loops) {
+    if (!loop) continue;
     ++report_.verified;
-    if (!best || one.loop.inliers > best->inliers) best = one.loop;
+    if (!best || loop->inliers > best->inliers) best = loop;
   }
   return best;
 }

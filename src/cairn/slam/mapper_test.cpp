@@ -22,13 +22,12 @@ struct Mapping {
     const ObservedFrame observed = see(truth);
     TrackedFrame tracked;
     tracked.world_from_camera = tracked_at;
-    const MatchOptions matching{descriptor_limit(observed.features.descriptors), 0, true};
-    const FrameView view{map.rig(), observed, tracked_at.inverse()};
+    const PosedFrame view{map.rig(), observed, tracked_at.inverse()};
     std::vector<LandmarkId> shown;
     for (const LandmarkId id : map[parent].landmarks)
       if (id.valid()) shown.push_back(id);
     tracked.landmarks.resize(observed.observations.size());
-    for (const FoundPoint& found : find_targets(landmark_targets(map, shown, view, 10), view, {}, matching))
+    for (const FoundPoint& found : find_landmarks(map, shown, view, 10))
       tracked.landmarks[static_cast<std::size_t>(found.feature)] = found.landmark;
     return mapper.add(observed, tracked, parent);
   }

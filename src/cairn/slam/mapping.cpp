@@ -68,11 +68,9 @@ int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyfra
   std::vector<LandmarkId> wanted;
   for (const LandmarkId id : landmarks)
     if (id.valid() && !map[id].erased() && !shows(map[id], keyframe)) wanted.push_back(id);
-  const FrameView view{map.rig(), map[keyframe].observed, map[keyframe].world_from_camera.inverse()};
-  const auto targets = landmark_targets(map, wanted, view, options.tracking.map_radius_px);
-  const MatchOptions matching{descriptor_limit(view.observed.features.descriptors), 0, true};
+  const PosedFrame view{map.rig(), map[keyframe].observed, map[keyframe].world_from_camera.inverse()};
   int joined = 0;
-  for (const FoundPoint& found : find_targets(targets, view, {}, matching)) {
+  for (const FoundPoint& found : find_landmarks(map, wanted, view, options.tracking.map_radius_px)) {
     const auto feature = static_cast<std::size_t>(found.feature);
     const Eigen::Vector3d point = view.camera_from_world * found.point_in_world;
     const Observation& seen = view.observed.observations[feature];

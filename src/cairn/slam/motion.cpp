@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/motion.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "cairn/features/matching.h"
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
-#include "cairn/optimize/pose_only.h"
 
 namespace cairn {
 namespace {
@@ -42,22 +42,15 @@ std::uint64_t seed_of(const SlamOptions& options, const ObservedFrame& reference
 
 /// False where the inliers leave a direction open: all on a line, or all far away. `depth` is a usual one of
 /// theirs, metres.
-bool is_determined(const Matrix6d& information, double depth) {
+bool is_determined(const Matrix6d& covariance, double depth) {
   constexpr double kMaxRotationStd = 0.02;  // radians
   constexpr double kMaxShareOfDepth = 0.01;
   constexpr double kLeastMaxStd = 0.05;  // metres
   const double max_translation_std = std::fmax(kLeastMaxStd, kMaxShareOfDepth * depth);
-  const Vector6d variances = information.ldlt().solve(Matrix6d::Identity()).diagonal();
+  const Vector6d variances = covariance.diagonal();
   const bool rotation = variances.head<3>().maxCoeff() < kMaxRotationStd * kMaxRotationStd;
   const bool translation = variances.tail<3>().maxCoeff() < max_translation_std * max_translation_std;
   return rotation && translation && variances.minCoeff() > 0;
-}
-
-KeyframeDecision decide_by_norm(const Motion& motion, double keyframe_threshold, double max_norm) {
-  if (!motion.found) return KeyframeDecision::not_matched;
-  if (motion.norm >= max_norm) return KeyframeDecision::too_far;
-  if (motion.norm <= keyframe_threshold) return KeyframeDecision::too_close;
-  return KeyframeDecision::keyframe;
 }
 
 }  // namespace
@@ -85,16 +78,16 @@ Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const Obs
   ransac.seed = seed_of(options, reference.observed, current);
   const PnpResult rough = solve_pnp_ransac(rig, pairs.points_in_reference, pairs.seen_in_current, ransac);
   if (!rough.found()) return motion;
-  const PoseOnlyResult refined =
-      refine_pose(rig, pairs.points_in_reference, pairs.seen_in_current, rough.camera_from_world);
+  const PoseEstimate refined =
+      estimate_pose(rig, {pairs.points_in_reference, pairs.seen_in_current}, rough.camera_from_world);
   motion.inliers = static_cast<int>(refined.inliers.size());
   for (const std::int32_t i : refined.inliers)
     motion.pairs.push_back(pairs.matches[static_cast<std::size_t>(i)]);
   const bool enough =
       motion.inliers >= options.min_inliers && motion.inliers >= options.min_inlier_share * motion.matches;
-  motion.found = refined.solved && enough && is_determined(refined.information, median_depth(current));
+  motion.found = refined.found() && enough && is_determined(refined.covariance, median_depth(current));
   motion.current_from_reference = refined.camera_from_world;
-  motion.information = refined.information;
+  if (motion.found) motion.information = refined.covariance.inverse();
   motion.norm = motion_norm(motion.current_from_reference);
   return motion;
 }
@@ -114,14 +107,16 @@ const char* to_string(KeyframeDecision decision) {
 }
 
 KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps) {
-  return decide_by_norm(motion, options.keyframe_threshold, steps * options.max_norm);
+  if (!motion.found) return KeyframeDecision::not_matched;
+  if (motion.norm >= steps * options.max_norm) return KeyframeDecision::too_far;
+  if (motion.norm <= options.keyframe_threshold) return KeyframeDecision::too_close;
+  return KeyframeDecision::keyframe;
 }
 
-KeyframeDecision decide_loop(const Motion& motion, const SlamOptions& options) {
-  const bool enough = motion.inliers >= options.loop_min_inliers &&
-                      motion.inliers >= options.loop_min_inlier_share * motion.matches;
-  if (!enough) return KeyframeDecision::not_matched;
-  return decide_by_norm(motion, options.keyframe_threshold, options.max_norm_lp);
+bool is_plausible_loop(const Motion& motion, const SlamOptions& options) {
+  return motion.found && motion.inliers >= options.loop_min_inliers &&
+         motion.inliers >= options.loop_min_inlier_share * motion.matches &&
+         motion.norm < options.max_norm_lp;
 }
 
 }  // namespace cairn

@@ -48,9 +48,9 @@ enum class KeyframeDecision {
 
 /// The four outcomes between frames `steps` frame periods apart (see steps_between), by motion.norm.
 [[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps = 1);
-/// The same for views that need not be neighbours: a loop closure, a frame after being lost. max_norm_lp
-/// bounds the motion, and loop_min_inliers and loop_min_inlier_share must be reached or it counts as not
-/// matched.
-[[nodiscard]] KeyframeDecision decide_loop(const Motion& motion, const SlamOptions& options);
+/// Tells whether a motion may be believed between frames that need not be neighbours, as those of a loop or a
+/// frame after being lost: loop_min_inliers and loop_min_inlier_share are reached, and the motion is below
+/// max_norm_lp.
+[[nodiscard]] bool is_plausible_loop(const Motion& motion, const SlamOptions& options);
 
 }  // namespace cairn

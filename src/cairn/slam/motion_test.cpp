@@ -120,15 +120,16 @@ TEST(KeyframeDecision, has_four_outcomes) {
   EXPECT_EQ(decide(motion_of(0.3, 100, 90), options), KeyframeDecision::too_far);
 }
 
-TEST(KeyframeDecision, a_loop_needs_more_evidence_and_may_be_farther) {
+TEST(PlausibleLoop, needs_more_evidence_and_may_be_farther) {
   SlamOptions options;
   options.max_norm = 0.3;
   options.max_norm_lp = 5;
-  EXPECT_EQ(decide_loop(motion_of(2, 100, 90), options), KeyframeDecision::keyframe);
-  EXPECT_EQ(decide_loop(motion_of(5, 100, 90), options), KeyframeDecision::too_far);
-  EXPECT_EQ(decide_loop(motion_of(2, 100, options.loop_min_inliers - 1), options),
-            KeyframeDecision::not_matched);
-  EXPECT_EQ(decide_loop(motion_of(2, 1000, 100), options), KeyframeDecision::not_matched);  // a tenth
+  EXPECT_TRUE(is_plausible_loop(motion_of(2, 100, 90), options));
+  EXPECT_TRUE(is_plausible_loop(motion_of(0.01, 100, 90), options));  // no keyframe is asked for
+  EXPECT_FALSE(is_plausible_loop(motion_of(5, 100, 90), options));
+  EXPECT_FALSE(is_plausible_loop(motion_of(2, 100, options.loop_min_inliers - 1), options));
+  EXPECT_FALSE(is_plausible_loop(motion_of(2, 1000, 100), options));  // a tenth
+  EXPECT_FALSE(is_plausible_loop({}, options));
 }
 
 TEST(MotionNorm, adds_the_angle_to_the_way) {

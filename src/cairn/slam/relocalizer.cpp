@@ -4,27 +4,13 @@
 #include <algorithm>
 
 #include "cairn/core/random.h"
+#include "cairn/slam/place_verification.h"
 
 namespace cairn {
 namespace {
 
-struct Attempt {
-  KeyframeId keyframe;
-  Motion motion;
-  bool ok = false;
-};
-
 void add_candidate(KeyframeId id, std::vector<KeyframeId>& candidates) {
   if (std::find(candidates.begin(), candidates.end(), id) == candidates.end()) candidates.push_back(id);
-}
-
-Attempt attempt(const Map& map, KeyframeId keyframe, const ObservedFrame& observed,
-                const SlamOptions& options) {
-  const auto points = points_of(map, keyframe);
-  Attempt one{keyframe, estimate_motion(map.rig(), {map[keyframe].observed, points}, observed, options)};
-  const KeyframeDecision decision = decide_loop(one.motion, options);
-  one.ok = decision == KeyframeDecision::too_close || decision == KeyframeDecision::keyframe;
-  return one;
 }
 
 }  // namespace
@@ -59,15 +45,14 @@ std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& place
   for (const PlaceCandidate& place :
        places.query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
     add_candidate({place.id}, candidates);
-  const auto attempts = executor.map<Attempt>(
-      candidates.size(), [&](std::size_t i) { return attempt(map, candidates[i], observed, options); });
-  const auto best =
-      std::max_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
-        return (a.ok ? a.motion.inliers : -1) < (b.ok ? b.motion.inliers : -1);
-      });
-  if (best == attempts.end() || !best->ok) return std::nullopt;
-  Relocalization found{best->keyframe,
-                       placed_by(map, best->keyframe, best->motion, observed.observations.size())};
+  using Placed = std::optional<TrackedFrame>;
+  const auto attempts = executor.map<Placed>(
+      candidates.size(), [&](std::size_t i) { return verify_place(map, candidates[i], observed, options); });
+  const auto best = std::max_element(attempts.begin(), attempts.end(), [](const Placed& a, const Placed& b) {
+    return (a ? a->inliers : -1) < (b ? b->inliers : -1);
+  });
+  if (best == attempts.end() || !*best) return std::nullopt;
+  Relocalization found{candidates[static_cast<std::size_t>(best - attempts.begin())], **best};
   (void)refine_in_map(map, observed, options, found.tracked);  // the match stands without it
   return found;
 }

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/frontend.h"
-#include "cairn/sequence/skipped_frames.h"
+#include "cairn/frontend/observe_frames.h"
 #include "cairn/slam/final_poses.h"
 #include "cairn/slam/mapper.h"
 #include "cairn/slam/mapping.h"
@@ -46,9 +44,9 @@ void require_same(const Map& start, const Rig& rig, const SlamOptions& options) 
 }
 
 /// One run under way.
-class Run {
+class SlamPipeline {
  public:
-  Run(const SlamOptions& options, const Executor& executor, SlamResult& result)
+  SlamPipeline(const SlamOptions& options, const Executor& executor, SlamResult& result)
       : options_(options),
         executor_(executor),
         result_(result),
@@ -58,7 +56,7 @@ class Run {
       places_.add(id.value, result.map[id].observed.features.descriptors);
   }
 
-  void take(ObservedFrame&& frame) {
+  void process(ObservedFrame&& frame) {
     Stopwatch watch;
     if (mapper_.take_over_if_due()) tracker_.follow_map();
     FrameTrack track = tracker_.track(std::move(frame));
@@ -191,29 +189,18 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& given, const Ex
   }
   result.start_keyframes = start ? start->keyframe_ids().size() : 0;
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
-  Run run(options, executor, result);
-  const Frontend frontend(sequence, options.observer);
-  SkippedFrames skipped(progress);
-
-  const auto take = [&](std::size_t index, Arrival&& arrival) {
+  SlamPipeline pipeline(options, executor, result);
+  FrameStream stream{"tracking"};
+  stream.process = [&](std::size_t, Arrival&& arrival) {
     result.times.decode.push_back(arrival.decode_seconds);
     result.times.features.push_back(arrival.feature_seconds);
-    if (arrival.error.empty()) {
-      skipped.take();
-      run.take(std::move(arrival.observed));
-    } else {
-      skipped.skip(arrival.failure);
-    }
-    progress.update(static_cast<std::int64_t>(index) + 1);
-    result.stopped = progress.stop_requested() && index + 1 < sequence.frames.size();
-    return !result.stopped;
+    if (!arrival.failure) pipeline.process(std::move(arrival.observed));
   };
-  progress.start("tracking", static_cast<std::int64_t>(sequence.frames.size()), "frames");
-  executor.ordered_pipeline<Arrival>(sequence.frames.size(), std::cref(frontend), take);
-  progress.finish();
-  skipped.finish();
-  result.unreadable = skipped.messages();
-  run.finish();
+  const FrameStreamReport report =
+      observe_frames(sequence, Frontend(sequence, options.observer), stream, executor, progress);
+  result.stopped = report.stopped;
+  result.unreadable = report.unreadable;
+  pipeline.finish();
   warn_of_refused(result, options, progress);
   return result;
 }

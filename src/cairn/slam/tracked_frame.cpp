@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cairn/optimize/pose_only.h"
+#include "cairn/geometry/camera_pose.h"
 #include "cairn/slam/local_map.h"
 
 namespace cairn {
@@ -34,7 +34,7 @@ std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tra
 
 }  // namespace
 
-bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers,
+bool solve_pose(const PosedFrame& view, std::span<const FoundPoint> found, int min_inliers,
                 TrackedFrame& tracked) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
@@ -42,12 +42,10 @@ bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int mi
     points.push_back(one.point_in_world);
     seen.push_back(view.observed.observations[static_cast<std::size_t>(one.feature)]);
   }
-  PoseOnlyOptions options;
-  options.begin_with_all = true;
-  const PoseOnlyResult pose =
-      refine_pose(view.rig, points, seen, CameraFromWorld(view.camera_from_world), options);
+  const PoseEstimate pose = estimate_pose(view.rig, {points, seen}, CameraFromWorld(view.camera_from_world),
+                                          {.selection = PoseSelection::inliers_from_all});
   const int inliers = static_cast<int>(pose.inliers.size());
-  if (!pose.solved || inliers < min_inliers) return false;
+  if (!pose.found() || inliers < min_inliers) return false;
   tracked.world_from_camera = pose.camera_from_world.inverse();
   tracked.landmarks.assign(view.observed.observations.size(), LandmarkId{});
   for (const std::int32_t i : pose.inliers) {
@@ -59,27 +57,12 @@ bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int mi
   return true;
 }
 
-TrackedFrame placed_by(const Map& map, KeyframeId reference, const Motion& motion, std::size_t features) {
-  TrackedFrame tracked;
-  const Keyframe& keyframe = map[reference];
-  tracked.world_from_camera = keyframe.world_from_camera * motion.current_from_reference.inverse();
-  tracked.landmarks.resize(features);
-  for (const Match& pair : motion.pairs)
-    tracked.landmarks[static_cast<std::size_t>(pair.query)] =
-        keyframe.landmarks[static_cast<std::size_t>(pair.train)];
-  tracked.matches = motion.matches;
-  tracked.inliers = motion.inliers;
-  return tracked;
-}
-
 bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
                    TrackedFrame& tracked) {
-  const FrameView view{map.rig(), observed, tracked.world_from_camera.inverse()};
+  const PosedFrame view{map.rig(), observed, tracked.world_from_camera.inverse()};
   const auto around = landmarks_around(map, tracked, options);
-  const auto targets = landmark_targets(map, around, view, options.tracking.map_radius_px);
-  const MatchOptions matching{descriptor_limit(observed.features.descriptors), 0, true};
   auto found = points_seen(map, tracked);
-  const auto more = find_targets(targets, view, tracked.landmarks, matching);
+  const auto more = find_landmarks(map, around, view, options.tracking.map_radius_px, tracked.landmarks);
   found.insert(found.end(), more.begin(), more.end());
   return solve_pose(view, found, std::max(options.min_inliers, tracked.inliers / 2), tracked);
 }

@@ -20,12 +20,8 @@ struct TrackedFrame {
 /// The pose that most of the found points agree with, from a start that is right to some tens of pixels;
 /// `landmarks` are those of the inliers. False, and `tracked` as it was, where fewer than `min_inliers`
 /// agree.
-[[nodiscard]] bool solve_pose(const FrameView& view, std::span<const FoundPoint> found, int min_inliers,
+[[nodiscard]] bool solve_pose(const PosedFrame& view, std::span<const FoundPoint> found, int min_inliers,
                               TrackedFrame& tracked);
-
-/// The frame of a motion against a keyframe; its landmarks are those that the inliers show there.
-[[nodiscard]] TrackedFrame placed_by(const Map& map, KeyframeId reference, const Motion& motion,
-                                     std::size_t features);
 
 /// Looks for what the map around the frame holds besides the landmarks it has already, and solves for the
 /// pose again with all of them. False, and `tracked` as it was, where fewer than min_inliers agree, or fewer

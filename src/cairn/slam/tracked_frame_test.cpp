@@ -27,7 +27,7 @@ struct Scene {
     return world;
   }
 
-  [[nodiscard]] FrameView view_from(const Rigid3& world_from_camera) const {
+  [[nodiscard]] PosedFrame view_from(const Rigid3& world_from_camera) const {
     return {maker.map.rig(), seen.observed, world_from_camera.inverse()};
   }
 
@@ -77,24 +77,6 @@ TEST(SolvePose, leaves_the_frame_alone_where_too_few_agree) {
   EXPECT_EQ(tracked.world_from_camera.translation.x(), 3);
   EXPECT_EQ(tracked.inliers, 7);
   EXPECT_TRUE(tracked.landmarks.empty());
-}
-
-TEST(PlacedBy, shows_what_the_keyframe_shows_at_the_matched_features) {
-  const Scene scene;
-  Motion motion;
-  motion.current_from_reference = test::aside(0.5);
-  motion.pairs = {{3, 8, 0}, {4, 2, 0}};
-  motion.matches = 9;
-  motion.inliers = 2;
-  const KeyframeId reference{0};
-  const TrackedFrame placed = placed_by(scene.maker.map, reference, motion, 6);
-  EXPECT_DOUBLE_EQ(placed.world_from_camera.translation.x(), -0.5);
-  ASSERT_EQ(placed.landmarks.size(), 6U);
-  EXPECT_EQ(placed.landmarks[3], scene.maker.map[reference].landmarks[8]);
-  EXPECT_EQ(placed.landmarks[4], scene.maker.map[reference].landmarks[2]);
-  EXPECT_FALSE(placed.landmarks[5].valid());
-  EXPECT_EQ(placed.matches, 9);
-  EXPECT_EQ(placed.inliers, 2);
 }
 
 /// From a tenth of the landmarks and a pose that is a pixel off to all of them and a better one.

@@ -30,31 +30,30 @@ Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Map
                  const PlaceIndex& places)
     : options_(options), executor_(executor), map_(map), places_(places) {}
 
-SearchTargets Tracker::targets_of_last(const FrameView& view, double radius_px) const {
-  SearchTargets targets;
+/// What the last frame shows, landmarks and other points, in this frame.
+std::vector<FoundPoint> Tracker::find_shown_before(const PosedFrame& frame, double radius_px) const {
+  GuidedSearch search(frame, radius_px);
   const auto points = points_shown(map_, observed_, last_);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite()) continue;
-    const Appearance appearance{&observed_.features.descriptors, i, observed_.features.keypoints[i],
-                                last_.world_from_camera.translation};
-    const auto place = predict_place(view, points[i], appearance, radius_px);
-    if (!place) continue;
-    const LandmarkId id = last_.landmarks[i];
-    targets.points_in_world.push_back(points[i]);
-    targets.landmarks.push_back(id.valid() && !map_[id].erased() ? id : LandmarkId{});
-    targets.places.push_back(*place);
-    targets.appearances.push_back(appearance);
+    search.add(i, points[i],
+               {&observed_.features.descriptors, i, observed_.features.keypoints[i],
+                last_.world_from_camera.translation});
   }
-  return targets;
+  std::vector<FoundPoint> found;
+  for (const GuidedMatch& match : search.match()) {
+    const LandmarkId id = last_.landmarks[match.point];
+    const bool alive = id.valid() && !map_[id].erased();
+    found.push_back({match.feature, alive ? id : LandmarkId{}, points[match.point]});
+  }
+  return found;
 }
 
 std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) const {
   const Rigid3 predicted = current_from_last_ * last_.world_from_camera.inverse();
-  const FrameView view{map_.rig(), frame, predicted};
-  const MatchOptions matching{descriptor_limit(frame.features.descriptors), 0, true};
+  const PosedFrame view{map_.rig(), frame, predicted};
   for (const double widening : {1.0, 3.0}) {
-    const auto targets = targets_of_last(view, widening * options_.tracking.motion_radius_px);
-    const auto found = find_targets(targets, view, {}, matching);
+    const auto found = find_shown_before(view, widening * options_.tracking.motion_radius_px);
     TrackedFrame current;
     const bool enough = static_cast<int>(found.size()) >= options_.min_good_match;
     if (enough && solve_pose(view, found, options_.min_inliers, current) &&

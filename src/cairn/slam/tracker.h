@@ -53,7 +53,7 @@ class Tracker {
   [[nodiscard]] std::optional<TrackedFrame> find_again(const ObservedFrame& frame, FrameTrack& track);
   [[nodiscard]] bool admit(const ObservedFrame& frame, const TrackedFrame& current, KeyframeId reference,
                            FrameTrack& track) const;
-  [[nodiscard]] SearchTargets targets_of_last(const FrameView& view, double radius_px) const;
+  [[nodiscard]] std::vector<FoundPoint> find_shown_before(const PosedFrame& frame, double radius_px) const;
   [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const;
   void refer_to_best(const TrackedFrame& current);
   void accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cairn/optimize/pose_only.h"
+#include "cairn/geometry/camera_pose.h"
 
 namespace cairn {
 namespace {
@@ -101,10 +101,10 @@ std::optional<VisualMotion> measure_motion(const Rig& rig, const FrameBuffer& fr
     seen.push_back(frame.observed.observations[static_cast<std::size_t>(match.feature)]);
   }
   if (points.size() < kMinInliers) return std::nullopt;
-  const PoseOnlyResult fit =
-      refine_pose(rig, points, seen, frame.odometry.inverse(), {.begin_with_all = true});
-  if (!fit.solved || fit.inliers.size() < std::max(kMinInliers, points.size() / 2)) return std::nullopt;
-  const Matrix6d covariance = fit.variance_factor * fit.information.inverse();
+  const PoseEstimate fit = estimate_pose(rig, {points, seen}, frame.odometry.inverse(),
+                                         {.selection = PoseSelection::inliers_from_all});
+  if (!fit.found() || fit.inliers.size() < std::max(kMinInliers, points.size() / 2)) return std::nullopt;
+  const Matrix6d covariance = fit.variance_factor * fit.covariance;
   return VisualMotion{frames.back().odometry.inverse() * fit.camera_from_world.inverse(),
                       covariance.topLeftCorner<3, 3>().trace() / 3,
                       covariance.bottomRightCorner<3, 3>().trace() / 3};

@@ -9,8 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/frontend.h"
-#include "cairn/sequence/skipped_frames.h"
+#include "cairn/frontend/observe_frames.h"
 #include "cairn/survey/checkpoint.h"
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/identity.h"
@@ -48,10 +47,10 @@ MapHeader header_of(const SurveyInput& input, const Rig& rig, const SurveyOption
 }
 
 /// One run: from where an earlier one came to, or the beginning.
-class Run {
+class SurveyPipeline {
  public:
-  Run(const SurveyInput& input, const SurveyOptions& options, const std::filesystem::path& folder,
-      const Executor& executor, Progress& progress)
+  SurveyPipeline(const SurveyInput& input, const SurveyOptions& options, const std::filesystem::path& folder,
+                 const Executor& executor, Progress& progress)
       : input_(input),
         options_(options),
         folder_(folder),
@@ -61,7 +60,7 @@ class Run {
         rig_(rig_of(input.sequence.calibration, options.observer.depth_noise)),
         frontend_(input.sequence, options.observer) {}
 
-  SurveyResult operator()() {
+  [[nodiscard]] SurveyResult run() {
     try {
       check_given_poses();
       begin();
@@ -148,34 +147,23 @@ class Run {
     for (std::size_t i = first; i < input_.sequence.frames.size(); ++i) {
       if (input_.poses.frames[i]) todo.push_back(i);
     }
-    if (surveyor_->state().counts.frames > 0) skipped_.take();  // in the run that this one goes on with
-    surveyor_->state().counts.without_pose = static_cast<std::int64_t>(input_.poses.without_pose);
-    const auto all = static_cast<std::int64_t>(input_.sequence.frames.size());
-    progress_.start("mapping", all, "frames");
-    executor_.ordered_pipeline<Arrival>(
-        todo.size(), [&](std::size_t k) { return frontend_(todo[k]); },
-        [&](std::size_t k, Arrival&& arrival) { return take(todo[k], arrival); });
-    progress_.finish();
-    skipped_.finish();
+    SurveyState& state = surveyor_->state();
+    state.counts.without_pose = static_cast<std::int64_t>(input_.poses.without_pose);
+    FrameStream stream{"mapping"};
+    stream.resumes_readable = state.counts.frames > 0;
+    stream.process = [this](std::size_t index, Arrival&& arrival) { process(index, arrival); };
+    result_.stopped = observe_frames(input_.sequence, frontend_, todo, stream, executor_, progress_).stopped;
+    if (result_.stopped) keep();
   }
 
-  /// One frame; false to stop after it.
-  bool take(std::size_t index, const Arrival& arrival) {
+  void process(std::size_t index, const Arrival& arrival) {
     result_.times.decode += arrival.decode_seconds;
     result_.times.features += arrival.feature_seconds;
     SurveyState& state = surveyor_->state();
-    if (arrival.failure) {
-      ++state.counts.unreadable;
-      skipped_.skip(arrival.failure);
-    } else {
-      skipped_.take();
-      surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
-    }
+    arrival.failure ? void(++state.counts.unreadable)
+                    : surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
     state.next_in_sequence = index + 1;
-    progress_.update(static_cast<std::int64_t>(index) + 1);
-    result_.stopped = progress_.stop_requested() && index + 1 < input_.sequence.frames.size();
-    if (result_.stopped || since_checkpoint_.seconds() > kCheckpointSeconds) keep();
-    return !result_.stopped;
+    if (since_checkpoint_.seconds() > kCheckpointSeconds) keep();
   }
 
   void require_frames() const {
@@ -217,7 +205,6 @@ class Run {
   const std::filesystem::path& folder_;
   const Executor& executor_;
   Progress& progress_;
-  SkippedFrames skipped_{progress_};
   std::uint32_t identity_;
   Rig rig_;
   Frontend frontend_;
@@ -233,7 +220,7 @@ SurveyResult run_survey(const SurveyInput& input, const SurveyOptions& options,
                         const std::filesystem::path& folder, const Executor& executor, Progress& progress) {
   options.validate();
   check(input);
-  return Run(input, options, folder, executor, progress)();
+  return SurveyPipeline(input, options, folder, executor, progress).run();
 }
 
 bool has_unfinished_survey(const std::filesystem::path& folder) {

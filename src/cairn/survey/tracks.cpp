@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "cairn/frontend/prediction.h"
+#include "cairn/frontend/guided_search.h"
 #include "cairn/geometry/epipolar.h"
 
 namespace cairn {
@@ -14,8 +14,8 @@ namespace {
 constexpr double kDepthSigmas = 3;  // how far the predicted depth may be wrong
 
 /// How far the pixel in `frame` moves when the disparity that placed the track is kDepthSigmas wrong.
-double depth_play_px(const Rig& rig, const FrameBuffer& frames, const Track& track,
-                     const SurveyFrame& frame) {
+double depth_uncertainty_px(const Rig& rig, const FrameBuffer& frames, const Track& track,
+                            const SurveyFrame& frame) {
   const SurveyFrame& then = frames[track.measured.keyframe];
   const Observation& seen = observation_of(frames, track.measured);
   const double nearer = seen.d + kDepthSigmas * seen.sigma_d_px;
@@ -29,32 +29,6 @@ double depth_play_px(const Rig& rig, const FrameBuffer& frames, const Track& tra
 /// Takes no sightings in `frame` any more.
 bool is_full(const Track& track, KeyframeId frame, const TrackOptions& options) {
   return frame.value - track.sightings.front().keyframe.value + 1 >= options.max_frames;
-}
-
-struct TrackTargets {
-  std::vector<std::int32_t> tracks;
-  std::vector<PredictedPlace> places;
-  std::vector<Appearance> appearances;
-};
-
-TrackTargets predict_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
-                            const SurveyFrame& frame, const TrackOptions& options) {
-  constexpr double kMaxPlayPx = 30;  // more is a point that is passed by
-  TrackTargets targets;
-  const FrameView view{rig, frame.observed, frame.odometry.inverse()};
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (is_full(tracks[i], frame.id, options)) continue;
-    const Appearance appearance = appearance_of(frames, tracks[i].sightings.back());
-    auto place = predict_place(view, tracks[i].point_in_world, appearance, options.search_px);
-    if (!place) continue;
-    const double play = depth_play_px(rig, frames, tracks[i], frame);
-    if (!(play <= kMaxPlayPx)) continue;
-    place->radius_px += play;
-    targets.tracks.push_back(static_cast<std::int32_t>(i));
-    targets.places.push_back(*place);
-    targets.appearances.push_back(appearance);
-  }
-  return targets;
 }
 
 /// Whether a feature of the frame can show what the track showed last, as the two poses have it.
@@ -82,16 +56,20 @@ bool agrees(const Rig& rig, const FrameBuffer& frames, const Track& track, const
 std::vector<TrackMatch> match_to_tracks(const Rig& rig, const FrameBuffer& frames,
                                         std::span<const Track> tracks, const SurveyFrame& frame,
                                         const TrackOptions& options, const Executor& executor) {
-  const TrackTargets targets = predict_tracks(rig, frames, tracks, frame, options);
-  const Features& features = frame.observed.features;
-  const MatchOptions matching{descriptor_limit(features.descriptors), options.max_ratio, true};
+  constexpr double kMaxUncertaintyPx = 30;  // more is a point that is passed by
+  GuidedSearch search({rig, frame.observed, frame.odometry.inverse()}, options.search_px);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (is_full(tracks[i], frame.id, options)) continue;
+    const double uncertainty_px = depth_uncertainty_px(rig, frames, tracks[i], frame);
+    if (uncertainty_px <= kMaxUncertaintyPx)
+      search.add(i, tracks[i].point_in_world, appearance_of(frames, tracks[i].sightings.back()),
+                 uncertainty_px);
+  }
   std::vector<TrackMatch> matches;
-  for (const Match& match :
-       match_predicted(targets.places, gather(targets.appearances), features, matching, executor)) {
-    const std::int32_t track = targets.tracks[static_cast<std::size_t>(match.query)];
-    if (agrees(rig, frames, tracks[static_cast<std::size_t>(track)], frame,
-               static_cast<std::size_t>(match.train), options.epipolar_px))
-      matches.push_back({track, match.train});
+  for (const GuidedMatch& match : search.match(options.max_ratio, executor)) {
+    if (agrees(rig, frames, tracks[match.point], frame, static_cast<std::size_t>(match.feature),
+               options.epipolar_px))
+      matches.push_back({static_cast<std::int32_t>(match.point), match.feature});
   }
   return matches;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/optimize/robust_kernel.h"
+#include "cairn/geometry/robust_kernel.h"
 
 #include <cmath>
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds for estimate_pose whatever its options: over many simulated problems the errors are as large as
+// the covariance says, and the variance factor is 1.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+#include "cairn/geometry/test_camera_pose.h"
+
+namespace cairn {
+namespace {
+
+struct OptionSet {
+  const char* name;
+  PoseOptions options;
+};
+
+void PrintTo(const OptionSet& set, std::ostream* out) {
+  *out << set.name;
+}
+
+PoseOptions options_of(PoseSelection selection, PoseMethod method, RobustKernel kernel,
+                       double scale = 2.448) {
+  PoseOptions options;
+  options.selection = selection, options.method = method;
+  options.kernel = kernel, options.kernel_scale = scale;
+  return options;
+}
+
+constexpr auto kAll = PoseSelection::all, kInliers = PoseSelection::inliers,
+               kFromAll = PoseSelection::inliers_from_all;
+constexpr auto kGauss = PoseMethod::gauss_newton, kMarquardt = PoseMethod::levenberg_marquardt;
+
+const OptionSet kOptionSets[] = {
+    {"all_gauss_newton", options_of(kAll, kGauss, RobustKernel::none)},
+    {"all", options_of(kAll, kMarquardt, RobustKernel::none)},
+    {"all_huber", options_of(kAll, kMarquardt, RobustKernel::huber)},
+    {"all_narrow_huber", options_of(kAll, kMarquardt, RobustKernel::huber, 1.345)},
+    {"all_cauchy", options_of(kAll, kMarquardt, RobustKernel::cauchy, 2.385)},
+    {"all_geman_mcclure", options_of(kAll, kMarquardt, RobustKernel::geman_mcclure, 4)},
+    {"inliers", options_of(kInliers, kMarquardt, RobustKernel::none)},
+    {"inliers_huber", options_of(kInliers, kMarquardt, RobustKernel::huber)},
+    {"inliers_cauchy", options_of(kInliers, kMarquardt, RobustKernel::cauchy, 2.385)},
+    {"from_all", options_of(kFromAll, kMarquardt, RobustKernel::none)},
+    {"from_all_huber", options_of(kFromAll, kMarquardt, RobustKernel::huber)},
+    {"from_all_huber_gauss_newton", options_of(kFromAll, kGauss, RobustKernel::huber)},
+};
+
+class CameraPoseProperty : public testing::TestWithParam<std::tuple<OptionSet, bool, bool>> {
+ protected:
+  [[nodiscard]] PoseSceneOptions scene_options() const {
+    return {.count = 120, .stereo = std::get<1>(GetParam()), .uncertain = std::get<2>(GetParam())};
+  }
+  [[nodiscard]] const PoseOptions& options() const { return std::get<0>(GetParam()).options; }
+};
+
+/// The pose by a third of the points: off by more than the estimate, and not towards the truth.
+CameraFromWorld rough_pose(const PoseScene& scene) {
+  const std::size_t third = scene.points.size() / 3;
+  PoseOptions options;
+  options.selection = PoseSelection::all;
+  return estimate_pose(kPoseRig, {std::span(scene.points).first(third), std::span(scene.seen).first(third)},
+                       nudged(scene.camera_from_world, 0.02), options)
+      .camera_from_world;
+}
+
+struct Honesty {
+  double nees = 0;  ///< normalised estimation error squared over its degrees of freedom, mean
+  double variance_factor = 0;
+};
+
+class SlowCameraPoseHonesty : public CameraPoseProperty {};
+
+TEST_P(SlowCameraPoseHonesty, covariance_and_variance_factor_are_honest) {
+  constexpr int kProblems = 2500;  // the mean of NEES / 6 has a standard deviation of 0.012
+  Honesty mean;
+  for (int i = 0; i < kProblems; ++i) {
+    const PoseScene scene = make_pose_scene(1000 + static_cast<std::uint64_t>(i), scene_options());
+    const PoseEstimate found = estimate_pose(kPoseRig, scene.correspondences(), rough_pose(scene), options());
+    ASSERT_TRUE(found.found()) << to_string(found.status);
+    const Vector6d error = error_of(found, scene);
+    mean.nees += error.dot(found.covariance.ldlt().solve(error)) / (6.0 * kProblems);
+    mean.variance_factor += found.variance_factor / kProblems;
+  }
+  EXPECT_NEAR(mean.variance_factor, 1, 0.03);
+  EXPECT_NEAR(mean.nees, 1, 0.05);
+}
+
+TEST_P(CameraPoseProperty, the_same_problem_gives_the_same_bytes_and_no_covariance_is_lopsided) {
+  const PoseScene scene = make_pose_scene(7, scene_options());
+  const CameraFromWorld start = nudged(scene.camera_from_world, 0.02);
+  const PoseEstimate one = estimate_pose(kPoseRig, scene.correspondences(), start, options());
+  const PoseEstimate two = estimate_pose(kPoseRig, scene.correspondences(), start, options());
+  EXPECT_EQ(one.camera_from_world.matrix3(), two.camera_from_world.matrix3());
+  EXPECT_EQ(one.covariance, two.covariance);
+  EXPECT_EQ(one.covariance, one.covariance.transpose());
+  EXPECT_GT(one.covariance.diagonal().minCoeff(), 0);
+}
+
+TEST_P(CameraPoseProperty, failures_leave_no_covariance) {
+  PoseScene scene = make_pose_scene(8, scene_options());
+  const CameraFromWorld backwards(Rigid3{rotation_exp({0, 3.1, 0}), {0, 0, 0}} * scene.camera_from_world);
+  const PoseEstimate behind = estimate_pose(kPoseRig, scene.correspondences(), backwards, options());
+  EXPECT_FALSE(behind.found());
+  for (auto& point : scene.points) point = scene.points[1];
+  for (auto& seen : scene.seen) seen = scene.seen[1];
+  const PoseEstimate one_place =
+      estimate_pose(kPoseRig, scene.correspondences(), scene.camera_from_world, options());
+  EXPECT_EQ(one_place.status, PoseStatus::undetermined);
+  for (const PoseEstimate& failed : {behind, one_place}) {
+    EXPECT_TRUE(failed.covariance.isZero());
+    EXPECT_TRUE(failed.camera_from_world.translation.allFinite());
+  }
+}
+
+std::string name_of(const testing::TestParamInfo<CameraPoseProperty::ParamType>& info) {
+  const auto& [set, stereo, uncertain] = info.param;
+  return std::string(set.name) + (stereo ? "_stereo" : "") + (uncertain ? "_uncertain_points" : "");
+}
+
+const auto kEverySet = testing::Combine(testing::ValuesIn(kOptionSets), testing::Bool(), testing::Bool());
+INSTANTIATE_TEST_SUITE_P(OptionSets, CameraPoseProperty, kEverySet, name_of);
+INSTANTIATE_TEST_SUITE_P(OptionSets, SlowCameraPoseHonesty, kEverySet, name_of);
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/localize/localize_sequence.h"
+
+#include <utility>
+
+#include "cairn/core/stopwatch.h"
+#include "cairn/frontend/observe_frames.h"
+#include "cairn/localize/motion_check.h"
+
+namespace cairn {
+namespace {
+
+class LocalizePipeline {
+ public:
+  LocalizePipeline(const Localizer& localizer, const Sequence& sequence,
+                   const LocalizeSequenceOptions& options)
+      : localizer_(localizer), sequence_(sequence), options_(options), images_(sequence.frames.size()) {
+    if (sequence.has_times) motion_.emplace(options.trust);
+  }
+
+  void prepare(std::size_t index, const Arrival& arrival) {
+    localize(index, arrival, options_.priors.empty() ? std::nullopt : options_.priors[index]);
+  }
+
+  void process(std::size_t index, const Arrival& arrival) {
+    if (arrival.failure) return;
+    if (options_.follow) localize(index, arrival, last_);
+    LocalizedImage& image = images_[index];
+    image.position = static_cast<std::int64_t>(index);
+    image.stamp_ns = arrival.observed.stamp_ns;
+    image.file = sequence_.frames[index].color.filename().string();
+    image.feature_seconds = arrival.feature_seconds;
+    if (motion_) motion_->check(image.stamp_ns, image.found);
+    if (image.found.verdict == Verdict::good) last_ = image.found.camera_from_world.inverse();
+    result_.images.push_back(std::move(image));
+  }
+
+  [[nodiscard]] LocalizedSequence take_result() { return std::move(result_); }
+
+ private:
+  void localize(std::size_t index, const Arrival& arrival, const std::optional<WorldFromCamera>& prior) {
+    Stopwatch watch;
+    images_[index].found = localizer_.localize(arrival.observed, prior);
+    images_[index].localize_seconds = watch.lap();
+  }
+
+  const Localizer& localizer_;
+  const Sequence& sequence_;
+  const LocalizeSequenceOptions& options_;
+  std::vector<LocalizedImage> images_;  // of each frame, on its way to the result
+  std::optional<MotionCheck> motion_;   // none if nothing is known about time
+  std::optional<WorldFromCamera> last_;
+  LocalizedSequence result_;
+};
+
+}  // namespace
+
+LocalizedSequence localize_sequence(const Localizer& localizer, const Sequence& sequence,
+                                    const Frontend& frontend, const LocalizeSequenceOptions& options,
+                                    const Executor& executor, Progress& progress) {
+  LocalizePipeline pipeline(localizer, sequence, options);
+  FrameStream stream{"localising", "image"};
+  if (!options.follow)
+    stream.prepare = [&](std::size_t index, const Arrival& arrival) { pipeline.prepare(index, arrival); };
+  stream.process = [&](std::size_t index, Arrival&& arrival) { pipeline.process(index, arrival); };
+  const FrameStreamReport report = observe_frames(sequence, frontend, stream, executor, progress);
+  LocalizedSequence result = pipeline.take_result();
+  result.unreadable = report.unreadable;
+  return result;
+}
+
+}  // namespace cairn
