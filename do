@@ -87,12 +87,15 @@ need() {  # installs what is missing of the packages named
 
 configure() {  # preset: only where that was not done yet; ninja sees later changes of the build description itself
   local data=${CAIRN_DATA_DIR:-}
-  if [ -e "build/$1/build.ninja" ]; then
+  local fresh=
+  if [ CMakePresets.json -nt "build/$1/CMakeCache.txt" ]; then
+    fresh=--fresh  # another compiler, perhaps
+  elif [ -e "build/$1/build.ninja" ]; then
     [ -n "$data" ] || return 0
     ! grep -qxF "CAIRN_DATA_DIR:PATH=$data" "build/$1/CMakeCache.txt" || return 0
   fi
   mkdir -p build
-  cmake --preset "$1" ${data:+"-DCAIRN_DATA_DIR=$data"} >"build/configure-$1.log" 2>&1 ||
+  cmake $fresh --preset "$1" ${data:+"-DCAIRN_DATA_DIR=$data"} >"build/configure-$1.log" 2>&1 ||
     { cat "build/configure-$1.log" >&2; die "cmake could not configure build/$1"; }
 }
 

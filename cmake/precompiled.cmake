@@ -2,7 +2,7 @@
 #
 # Lets the sources of a target begin with headers that are compiled once for all rooms: Eigen's core and the part of the
 # standard library that most of our sources include; with TEST GoogleTest as well. Sources still include what they use:
-# clang-tidy and the check of the headers compile without.
+# tests/check_includes.py looks for the names that these headers give.
 set(CAIRN_PRECOMPILED_HEADERS
   <Eigen/Core> <Eigen/Geometry> <Eigen/Cholesky> <Eigen/LU>
   <fmt/format.h>

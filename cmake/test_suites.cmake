@@ -14,6 +14,7 @@ function(cairn_discover_suites executable prefix)
             "-DLONG=${ARGN}"
             -P ${CMAKE_SOURCE_DIR}/cmake/list_suites.cmake
     BYPRODUCTS ${list} VERBATIM)
+  set_property(TARGET ${executable} APPEND PROPERTY LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/list_suites.cmake)
   set(include ${CMAKE_CURRENT_BINARY_DIR}/${executable}_include.cmake)
   file(WRITE ${include}
     "if(EXISTS \"${list}\")\n  include(\"${list}\")\nelse()\n  add_test(${prefix}.NOT_BUILT ${executable}_NOT_BUILT)\nendif()\n")

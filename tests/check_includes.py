@@ -48,6 +48,8 @@ EIGEN = {
     "Eigen/Geometry": "Quaterniond Quaternionf Quaternion AngleAxisd AngleAxisf Isometry3d Affine3d Translation3d AlignedBox3d "
                       "AlignedBox2d ParametrizedLine Hyperplane",
 }
+# Members of Eigen's matrices that only these headers define.
+MEMBERS = {"Eigen/Cholesky": "llt ldlt", "Eigen/LU": "determinant partialPivLu fullPivLu", "Eigen/Geometry": "cross homogeneous hnormalized"}
 # Headers that bring another by their own documentation.
 BRINGS = {
     "Eigen/Dense": {"Eigen/Core", "Eigen/Geometry", "Eigen/Cholesky", "Eigen/LU"},
@@ -64,7 +66,8 @@ def patterns():
     """[(header, pattern of what it gives)]"""
     std = [(header, re.compile(r"\bstd::(?:ranges::)?(" + "|".join(names.split()) + r")\b")) for header, names in STD.items()]
     eigen = [(header, re.compile(r"\bEigen::(" + "|".join(names.split()) + r")\b")) for header, names in EIGEN.items()]
-    return [*std, *eigen, ("Eigen/Core", re.compile(r"\b(Eigen)::")), ("fmt/format.h", re.compile(r"\b(fmt)::"))]
+    members = [(header, re.compile(r"(\.(?:" + "|".join(names.split()) + r")\()")) for header, names in MEMBERS.items()]
+    return [*std, *eigen, *members, ("Eigen/Core", re.compile(r"\b(Eigen)::")), ("fmt/format.h", re.compile(r"\b(fmt)::"))]
 
 
 class Includes:

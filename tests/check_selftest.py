@@ -254,7 +254,22 @@ class TidyBatches(Sample):
         self.assertEqual(code, 0, output)
         self.assertIn("3 sources, 0 as before, 0 with findings", output)
         batches = [path.read_text().count("#include") for path in (self.root / "build/tidy_batches").rglob("batch.cpp")]
-        self.assertEqual(batches, [2])  # a with c; b alone needs none
+        self.assertEqual(sorted(batches), [1, 2])  # a with c, and b
+
+    def test_a_source_with_two_commands_passes_only_if_both_are_clean(self):
+        self.write("src/a.cpp", "#ifdef BAD\nint BadName() { return 1; }\n#endif\n")
+        self.write("src/b.cpp", "int b() { return 2; }\n")
+        build = self.root / "build"
+        build.mkdir()
+        commands = [{"directory": str(build), "file": str(self.root / f"src/{name}.cpp"),
+                     "command": f"/usr/bin/c++ -std=c++20 {flag} -o {name}{flag}.o -c {self.root}/src/{name}.cpp"}
+                    for name, flag in (("a", "-DGOOD"), ("a", "-DBAD"), ("b", "-DGOOD"), ("b", "-DBAD"))]
+        (build / "compile_commands.json").write_text(json.dumps(commands))
+        for again in ("0", "1"):
+            code, output = self.run_command(sys.executable, TESTS / "run_tidy.py", "--root", self.root, "--build", build)
+            self.assertEqual(code, 1, output)
+            self.assertIn("'BadName'", output)
+            self.assertIn(f"2 sources, {again} as before, 1 with findings", output)
 
     def test_names_the_source_of_a_finding_and_passes_over_the_others_the_next_time(self):
         for again in ("0", "2"):

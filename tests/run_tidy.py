@@ -141,15 +141,14 @@ def tidy(source, database, root):
     return "" if done.returncode == 0 else done.stdout + done.stderr
 
 
-def tidy_batch(folder, flags, paths, build, root):
+def tidy_batch(folder, flags, paths, root):
     """[(path, findings)] of a batch; one with findings is checked again in halves."""
-    if len(paths) == 1:
-        return [(paths[0], tidy(paths[0], build, root))]
-    if not tidy(write_batch(folder, flags, paths), folder, root):
-        return [(path, "") for path in paths]
+    findings = tidy(write_batch(folder, flags, paths), folder, root)
+    if not findings or len(paths) == 1:
+        return [(path, findings) for path in paths]
     middle = len(paths) // 2
-    return [*tidy_batch(folder / "a", flags, paths[:middle], build, root),
-            *tidy_batch(folder / "b", flags, paths[middle:], build, root)]
+    return [*tidy_batch(folder / "a", flags, paths[:middle], root),
+            *tidy_batch(folder / "b", flags, paths[middle:], root)]
 
 
 def check(sources, build, root, passed_now):
@@ -157,16 +156,18 @@ def check(sources, build, root, passed_now):
     folder = build / "tidy_batches"
     shutil.rmtree(folder, ignore_errors=True)
     findings = {}
+    pending = {path: len(flags) for path, (_, flags) in sources.items()}  # one result for each compile command
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        runs = [pool.submit(tidy_batch, folder / str(number), *batch, build, root)
+        runs = [pool.submit(tidy_batch, folder / str(number), *batch, root)
                 for number, batch in enumerate(make_batches(sources, root))]
         for run in concurrent.futures.as_completed(runs):
             for path, output in run.result():
                 findings[path] = findings.get(path, "") + output
+                pending[path] -= 1
                 print(f"tidy: {path.relative_to(root)}{'' if not output else ' FAILED'}", flush=True)
                 if output:
                     print(output, flush=True)
-            passed_now([path for path, _ in run.result() if not findings[path]])
+            passed_now([path for path, _ in run.result() if pending[path] == 0 and not findings[path]])
     return findings
 
 

@@ -25,7 +25,7 @@ struct PnpArguments {
   std::string points, pixels, camera, start = "ransac", method = "lm", kernel = "none";
   double sigma_px = 1;
   bool trace = false;
-  PoseOptions fit{.selection = PoseSelection::all};
+  PoseOptions fit{.kernel = RobustKernel::none};
   RansacOptions ransac;
 };
 
@@ -118,15 +118,6 @@ PnpInput read_input(const PnpArguments& arguments) {
   return input;
 }
 
-PnpInput inliers_of(const PnpInput& input, const std::vector<std::int32_t>& inliers) {
-  PnpInput chosen{input.rig, {}, {}};
-  for (const std::int32_t index : inliers) {
-    chosen.points.push_back(input.points[static_cast<std::size_t>(index)]);
-    chosen.seen.push_back(input.seen[static_cast<std::size_t>(index)]);
-  }
-  return chosen;
-}
-
 /// What came out.
 struct PnpReport {
   std::size_t points = 0;
@@ -134,36 +125,24 @@ struct PnpReport {
   std::size_t used = 0;
   PoseEstimate fit;
   RansacReport judged;  ///< of the fit's pose, by all points; where the fit is ok
-  double rms_px = 0;    ///< of the points used: root mean square of the distance in the image
 };
 
-double rms_px_of(const PnpInput& input, const Rigid3& camera_from_world) {
-  double sum = 0;
-  for (std::size_t i = 0; i < input.seen.size(); ++i) {
-    const double sigma = input.seen[i].sigma_px;
-    sum += sigma * sigma * squared_error(input.rig, camera_from_world * input.points[i], input.seen[i]);
-  }
-  return std::sqrt(sum / static_cast<double>(input.seen.size()));
-}
-
-void fit_to(const PnpInput& chosen, const CameraFromWorld& start, const PoseOptions& options,
-            PnpReport& report) {
-  report.used = chosen.points.size();
-  report.fit = estimate_pose(chosen.rig, {chosen.points, chosen.seen}, start, options);
-  report.rms_px = rms_px_of(chosen, report.fit.camera_from_world);
-}
-
+/// Least squares over all points from the identity, or over the inliers from RANSAC's pose.
 PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
   PnpReport report;
   report.points = input.points.size();
+  PoseOptions options = arguments.fit;
+  CameraFromWorld start;
   if (arguments.start == "identity") {
-    fit_to(input, {}, arguments.fit, report);
+    options.selection = PoseSelection::all;
   } else {
     report.ransac = solve_pnp_ransac(input.rig, input.points, input.seen, arguments.ransac);
     if (!report.ransac->found()) return report;
-    fit_to(inliers_of(input, report.ransac->inliers), report.ransac->camera_from_world, arguments.fit,
-           report);
+    options.selection = PoseSelection::inliers;
+    start = report.ransac->camera_from_world;
   }
+  report.fit = estimate_pose(input.rig, {input.points, input.seen}, start, options);
+  report.used = report.ransac ? report.fit.inliers.size() : report.points;
   if (report.fit.status == PoseStatus::ok)
     report.judged = judge_pose(input.rig, input.points, input.seen, report.fit.camera_from_world);
   return report;
@@ -221,7 +200,7 @@ void print_report(const PnpArguments& arguments, const PnpReport& report) {
   fmt::print("iterations    {}, {}\n", fit.iterations(), to_string(fit.status));
   fmt::print("cost          {:.10g}  half the sum of squares over sigma^2{}\n", fit.cost,
              arguments.kernel == "none" ? "" : ", with the kernel");
-  fmt::print("residual      {:.6g} px RMS\n", report.rms_px);
+  fmt::print("residual      {:.6g} px RMS\n", report.fit.rms_px);
   if (!report.ransac && fit.status == PoseStatus::ok)
     fmt::print("agreement     {} of {} points within the 95 % limit of sigma\n", report.judged.inliers.size(),
                report.points);
@@ -250,7 +229,7 @@ nlohmann::ordered_json to_json(const PnpReport& report) {
   if (report.fit.trace.empty()) return json;
   json["iterations"] = report.fit.iterations();
   json["cost"] = report.fit.cost;
-  json["rms_px"] = report.rms_px;
+  json["rms_px"] = report.fit.rms_px;
   for (const PoseIteration& row : report.fit.trace)
     json["trace"].push_back(
         {{"cost", row.cost}, {"step", row.step}, {"lambda", row.lambda}, {"accepted", row.accepted}});

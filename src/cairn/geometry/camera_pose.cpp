@@ -30,14 +30,17 @@ class PoseSolver {
     select_first();
     for (int round = 0; round < options_.rounds; ++round) {
       result_.status = used_.size() < kFewest ? PoseStatus::too_few_points : minimise();
-      if (result_.status != PoseStatus::ok) return std::move(result_);
+      if (result_.status != PoseStatus::ok && result_.status != PoseStatus::not_converged)
+        return std::move(result_);
       result_.inliers = inliers();
       if (options_.selection == PoseSelection::all) break;
       truncated_ = true;
       if (used_ == result_.inliers) break;
       used_ = result_.inliers;
     }
-    result_.status = used_.size() < kFewest ? PoseStatus::too_few_points : assess();
+    result_.rms_px = used_.empty() ? 0 : rms_px();
+    if (result_.status == PoseStatus::ok)  // of the last round: one before may end early
+      result_.status = used_.size() < kFewest ? PoseStatus::too_few_points : assess();
     return std::move(result_);
   }
 
@@ -173,11 +176,20 @@ class PoseSolver {
     return moments;
   }
 
-  /// Covariance, variance factor and residual at the solution.
+  [[nodiscard]] double rms_px() const {
+    double squares = 0;
+    for (const std::int32_t i : used_) {
+      const Eigen::Vector3d projected = rig_.project(in_camera(result_.camera_from_world, i));
+      squares += (projected.head<2>() - Eigen::Vector2d(seen(i).u, seen(i).v)).squaredNorm();
+    }
+    return std::sqrt(squares / static_cast<double>(used_.size()));
+  }
+
+  /// Covariance and variance factor at the solution.
   [[nodiscard]] PoseStatus assess() {
     const Moments of_kind = moments();
     PoseEquations sensitivity, force;
-    double squares = 0, pixels = 0;
+    double squares = 0;
     for (const std::int32_t i : used_) {
       const WhitenedError one = whitened(i);
       const KernelMoments& kind = of_kind[seen(i).has_disparity()];
@@ -185,13 +197,10 @@ class PoseSolver {
       sensitivity.add(one, weighted * kind.sensitivity);
       force.add(one, weighted * kind.force);
       squares += weight(error) * error;
-      const Eigen::Vector3d projected = rig_.project(in_camera(result_.camera_from_world, i));
-      pixels += (projected.head<2>() - Eigen::Vector2d(seen(i).u, seen(i).v)).squaredNorm();
     }
     if (!sensitivity.solve()) return PoseStatus::undetermined;
     const Matrix6d inverse = sensitivity.hessian.inverse();
     result_.covariance = as_covariance(inverse * force.hessian * inverse);
-    result_.rms_px = std::sqrt(pixels / static_cast<double>(used_.size()));
     result_.cost = current_cost();
     const double expected = expected_squares(of_kind, inverse);
     result_.variance_factor = expected > 0 ? squares / expected : 1.0;
@@ -252,6 +261,11 @@ std::string_view to_string(PoseStatus status) {
       break;
   }
   return "ok";
+}
+
+int PoseEstimate::iterations() const {
+  return static_cast<int>(
+      std::count_if(trace.begin(), trace.end(), [](const PoseIteration& row) { return row.step > 0; }));
 }
 
 PoseEstimate estimate_pose(const Rig& rig, const Correspondences& correspondences,

@@ -65,7 +65,9 @@ enum class PoseStatus {
 struct PoseEstimate {
   PoseStatus status = PoseStatus::too_few_points;
   CameraFromWorld camera_from_world;  ///< the best so far if status is not ok
-  std::vector<std::int32_t> inliers;  ///< positions of correspondences within squared_error_limit, increasing
+  /// Positions of the correspondences within squared_error_limit, increasing, after the last round that could
+  /// be solved.
+  std::vector<std::int32_t> inliers;
   /// Of the left perturbation (rotation, translation) at the given standard deviations. Counts what the
   /// kernel and the limit cost in precision (KernelMoments). Zero unless status is ok.
   Matrix6d covariance = Matrix6d::Zero();
@@ -78,7 +80,8 @@ struct PoseEstimate {
   std::vector<PoseIteration> trace;  ///< the start of a round, then each step tried
 
   [[nodiscard]] bool found() const { return status == PoseStatus::ok; }
-  [[nodiscard]] int iterations() const { return static_cast<int>(trace.size()) - 1; }
+  /// Steps tried, in all rounds.
+  [[nodiscard]] int iterations() const;
 };
 
 /// Estimates the pose of one camera, points fixed: minimises

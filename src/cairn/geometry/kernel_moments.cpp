@@ -16,15 +16,13 @@ double length_density(double t, int dimension) {
   return dimension == 2 ? t * gauss : std::sqrt(2 / std::numbers::pi) * t * t * gauss;
 }
 
-/// Means over errors of the given variance whose squared length is below the limit.
-KernelMoments moments_at(RobustKernel kernel, double scale, int dimension, double limit, double variance) {
-  constexpr int kPanels = 96;     // of Simpson's rule, an even number
-  constexpr double kLongest = 8;  // standard deviations: longer errors are rarer than 1e-13
-  const double end = std::min(kLongest, std::sqrt(limit / variance));
-  KernelMoments sums{0, 0, 0, 0, 0, 0};
+/// Sums over errors of the given variance and of lengths from `begin` to `end`, by Simpson's rule.
+void add_moments(RobustKernel kernel, double scale, int dimension, double variance, double begin, double end,
+                 KernelMoments& sums) {
+  constexpr int kPanels = 96;  // an even number
   for (int i = 0; i <= kPanels; ++i) {
-    const double t = end * i / kPanels, s = variance * t * t;
-    const double simpson = (i == 0 || i == kPanels ? 1 : i % 2 == 1 ? 4 : 2) * end / (3 * kPanels);
+    const double t = begin + (end - begin) * i / kPanels, s = variance * t * t;
+    const double simpson = (i == 0 || i == kPanels ? 1 : i % 2 == 1 ? 4 : 2) * (end - begin) / (3 * kPanels);
     const double density = simpson * length_density(t, dimension);
     const double weight = kernel_weight(kernel, scale, s);
     sums.share += density;
@@ -32,6 +30,23 @@ KernelMoments moments_at(RobustKernel kernel, double scale, int dimension, doubl
     sums.squares += density * weight * s;
     sums.force += density * weight * weight * s;
   }
+}
+
+/// Means over errors of the given variance whose squared length is below the limit. In pieces: up to the
+/// scale of the kernel, from where it bends, then up to ten times as far each, so that narrow kernels are
+/// resolved, too.
+KernelMoments moments_at(RobustKernel kernel, double scale, int dimension, double limit, double variance) {
+  constexpr double kLongest = 8;  // standard deviations: longer errors are rarer than 1e-13
+  const double end = std::min(kLongest, std::sqrt(limit / variance));
+  KernelMoments sums{0, 0, 0, 0, 0, 0};
+  double begin = 0;
+  if (kernel != RobustKernel::none) {
+    for (double next = scale / std::sqrt(variance); next < end; next *= 10) {
+      add_moments(kernel, scale, dimension, variance, begin, next, sums);
+      begin = next;
+    }
+  }
+  add_moments(kernel, scale, dimension, variance, begin, end, sums);
   sums.weight /= sums.share;
   sums.squares /= sums.share;
   sums.force /= sums.share * dimension;

@@ -22,7 +22,8 @@ struct KernelMoments {
   [[nodiscard]] double expected_squares(double variance) const { return squares + slope * (variance - 1); }
 };
 
-/// `degrees_of_freedom` is 2 or 3, `limit` is above 0 and may be infinite. Integrated numerically, to 1e-4.
+/// `degrees_of_freedom` is 2 or 3, `limit` is above 0 and may be infinite. Integrated numerically, to 1e-3 of
+/// each.
 [[nodiscard]] KernelMoments kernel_moments(RobustKernel kernel, double scale, int degrees_of_freedom,
                                            double limit);
 

@@ -62,5 +62,19 @@ TEST(KernelMoments, are_the_means_over_random_errors) {
   }
 }
 
+/// A kernel much narrower than the noise: w s is c^2 for nearly all errors with Geman-McClure's c^4 / s, and
+/// c sqrt(s) with Huber's.
+TEST(KernelMoments, resolve_narrow_kernels) {
+  for (const double scale : {0.1, 0.01, 1e-4, 1e-9}) {
+    const KernelMoments huber = kernel_moments(RobustKernel::huber, scale, 2, kNoLimit);
+    const double mean_length = std::sqrt(std::acos(-1.0) / 2);  // of a standard normal vector in the plane
+    EXPECT_NEAR(huber.squares / scale, mean_length, 0.02 * scale + 2e-3);
+    EXPECT_NEAR(huber.force / (scale * scale / 2), 1, scale * scale + 2e-3);
+    const KernelMoments geman = kernel_moments(RobustKernel::geman_mcclure, scale, 2, kNoLimit);
+    // integral of c^4 / (c^2 + s)^2 exp(-s / 2) / 2 ds is c^2 / 2 for a small c
+    EXPECT_NEAR(geman.weight / (scale * scale / 2), 1, 4 * scale + 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace cairn

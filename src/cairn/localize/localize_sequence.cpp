@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/frontend/observe_frames.h"
 #include "cairn/localize/motion_check.h"
@@ -58,6 +59,8 @@ class LocalizePipeline {
 LocalizedSequence localize_sequence(const Localizer& localizer, const Sequence& sequence,
                                     const Frontend& frontend, const LocalizeSequenceOptions& options,
                                     const Executor& executor, Progress& progress) {
+  require(options.priors.empty() || options.priors.size() == sequence.frames.size(),
+          "each image has a prior, or none has");
   LocalizePipeline pipeline(localizer, sequence, options);
   FrameStream stream{"localising", "image"};
   if (!options.follow)

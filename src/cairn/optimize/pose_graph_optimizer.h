@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cairn/core/progress.h"
-#include "cairn/map/pose_graph.h"
 #include "cairn/geometry/robust_kernel.h"
+#include "cairn/map/pose_graph.h"
 
 namespace cairn {
 

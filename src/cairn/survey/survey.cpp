@@ -163,7 +163,7 @@ class SurveyPipeline {
     arrival.failure ? void(++state.counts.unreadable)
                     : surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
     state.next_in_sequence = index + 1;
-    if (since_checkpoint_.seconds() > kCheckpointSeconds) keep();
+    if (progress_.stop_requested() || since_checkpoint_.seconds() > kCheckpointSeconds) keep();
   }
 
   void require_frames() const {
