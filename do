@@ -47,7 +47,10 @@ packages_test=(
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
-packages_sanitizers=(clang-16 libclang-rt-16-dev)  # half the build time of g++ with sanitizers, and a second compiler
+packages_sanitizers=(
+  clang-16 libclang-rt-16-dev  # half the build time of g++ with sanitizers, and a second compiler
+  llvm-16                      # names and lines in what the sanitizers report
+)
 packages_tidy=(clang-tidy-14 python3 universal-ctags)
 packages_format=(clang-format-14 python3)
 
@@ -109,7 +112,11 @@ build() {
 build_and_test() {  # preset, ctest arguments
   local preset=$1 packages=("${packages_build[@]}" "${packages_test[@]}")
   shift
-  [ "$preset" = release ] || packages+=("${packages_sanitizers[@]}")
+  if [ "$preset" != release ]; then
+    packages+=("${packages_sanitizers[@]}")
+    export ASAN_SYMBOLIZER_PATH=/usr/lib/llvm-16/bin/llvm-symbolizer
+    export TSAN_SYMBOLIZER_PATH=$ASAN_SYMBOLIZER_PATH
+  fi
   need "${packages[@]}"
   configure "$preset"
   say "building build/$preset; the first time takes some minutes"

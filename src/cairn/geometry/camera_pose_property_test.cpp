@@ -15,8 +15,8 @@ struct OptionSet {
   PoseOptions options;
 };
 
-void PrintTo(const OptionSet& set, std::ostream* out) {
-  *out << set.name;
+std::ostream& operator<<(std::ostream& out, const OptionSet& set) {
+  return out << set.name;
 }
 
 PoseOptions options_of(PoseSelection selection, PoseMethod method, RobustKernel kernel,
