@@ -2,8 +2,8 @@
 #
 # A room is one static library, cairn::<name>, with its unit tests in one executable, cairn_<name>_tests. LONG names
 # the test suites that take longest. PUBLIC are the rooms and libraries whose types its headers show, PRIVATE those that
-# only its sources know. The target cairn_headers
-# compiles each header of each room alone, apart from the precompiled ones, for which tests/check_includes.py looks.
+# only its sources know. The target cairn_headers compiles each header of each room alone, apart from the precompiled
+# ones, for which tests/check_includes.py looks.
 add_custom_target(cairn_headers)
 
 function(cairn_room name)

@@ -163,19 +163,6 @@ class PoseSolver {
     return xi->norm() < options_.converged_step ? PoseStatus::ok : PoseStatus::not_converged;
   }
 
-  /// Moments of the kernel and the limit, of an observation without and with a disparity.
-  using Moments = std::array<KernelMoments, 2>;
-  [[nodiscard]] Moments moments() const {
-    Moments moments;
-    for (const bool stereo : {false, true}) {
-      Observation kind;
-      if (stereo) kind.d = 0;
-      moments[stereo] = kernel_moments(options_.kernel, options_.kernel_scale, stereo ? 3 : 2,
-                                       truncated_ ? squared_error_limit(kind) : kInfinity);
-    }
-    return moments;
-  }
-
   [[nodiscard]] double rms_px() const {
     double squares = 0;
     for (const std::int32_t i : used_) {
@@ -185,24 +172,46 @@ class PoseSolver {
     return std::sqrt(squares / static_cast<double>(used_.size()));
   }
 
+  /// The observations of one kind, with or without a disparity, at the solution.
+  struct Kind {
+    int dimension = 2;
+    KernelMoments moments;
+    double count = 0;
+    Matrix6d plain = Matrix6d::Zero(), weighted = Matrix6d::Zero();  // sums of J^T J
+  };
+  [[nodiscard]] Kind kind_of(bool stereo) const {
+    Observation example;
+    if (stereo) example.d = 0;
+    const int dimension = stereo ? 3 : 2;
+    const double limit = truncated_ ? squared_error_limit(example) : kInfinity;
+    return {dimension, kernel_moments(options_.kernel, options_.kernel_scale, dimension, limit)};
+  }
+
   /// Covariance and variance factor at the solution.
   [[nodiscard]] PoseStatus assess() {
-    const Moments of_kind = moments();
-    PoseEquations sensitivity, force;
+    std::array<Kind, 2> kinds{kind_of(false), kind_of(true)};
     double squares = 0;
     for (const std::int32_t i : used_) {
       const WhitenedError one = whitened(i);
-      const KernelMoments& kind = of_kind[seen(i).has_disparity()];
-      const double error = one.error.squaredNorm(), weighted = weight(error) / kind.weight;
-      sensitivity.add(one, weighted * kind.sensitivity);
-      force.add(one, weighted * kind.force);
+      const double error = one.error.squaredNorm();
+      const Matrix6d information = one.jacobian.transpose() * one.jacobian;
+      Kind& kind = kinds[seen(i).has_disparity()];
+      kind.count += 1;
+      kind.plain += information;
+      kind.weighted += weight(error) * information;
       squares += weight(error) * error;
+    }
+    PoseEquations sensitivity;
+    Matrix6d force = Matrix6d::Zero();
+    for (const Kind& kind : kinds) {
+      sensitivity.hessian += kind.moments.sensitivity / kind.moments.weight * kind.weighted;
+      force += kind.moments.force / kind.moments.weight * kind.weighted;
     }
     if (!sensitivity.solve()) return PoseStatus::undetermined;
     const Matrix6d inverse = sensitivity.hessian.inverse();
-    result_.covariance = as_covariance(inverse * force.hessian * inverse);
+    result_.covariance = as_covariance(inverse * force * inverse);
     result_.cost = current_cost();
-    const double expected = expected_squares(of_kind, inverse);
+    const double expected = expected_squares(kinds, inverse);
     result_.variance_factor = expected > 0 ? squares / expected : 1.0;
     return PoseStatus::ok;
   }
@@ -210,18 +219,16 @@ class PoseSolver {
   /// What the weighted squared errors sum up to if the standard deviations are right. Residuals are smaller
   /// than errors: the pose follows its observations. With psi = w e, an error e moves the pose by A^-1 J^T
   /// psi, so that the variance of the residual e - J xi is 1 - 2 E[psi e] J A^-1 J^T + J C J^T; without
-  /// kernel and limit 1 - J C J^T.
-  [[nodiscard]] double expected_squares(const Moments& of_kind, const Matrix6d& inverse) const {
+  /// kernel and limit 1 - J C J^T. The sum over a kind of tr(J M J^T) is that of M times the sum of J^T J.
+  [[nodiscard]] double expected_squares(const std::array<Kind, 2>& kinds, const Matrix6d& inverse) const {
     double sum = 0;
-    for (const std::int32_t i : used_) {
-      const WhitenedError one = whitened(i);
-      const int dimension = seen(i).has_disparity() ? 3 : 2;
-      const KernelMoments& kind = of_kind[seen(i).has_disparity()];
-      const double follows = (one.jacobian * inverse * one.jacobian.transpose()).trace() / dimension,
-                   spread =
-                       (one.jacobian * result_.covariance * one.jacobian.transpose()).trace() / dimension;
-      const double variance = 1 - 2 * kind.share * kind.sensitivity * follows + spread;
-      sum += kind.expected_squares(variance);
+    for (const Kind& kind : kinds) {
+      if (kind.count == 0) continue;
+      const double coordinates = kind.count * kind.dimension,
+                   follows = inverse.cwiseProduct(kind.plain).sum() / coordinates,
+                   spread = result_.covariance.cwiseProduct(kind.plain).sum() / coordinates;
+      const double variance = 1 - 2 * kind.moments.share * kind.moments.sensitivity * follows + spread;
+      sum += kind.count * kind.moments.expected_squares(variance);
     }
     return sum;
   }
