@@ -60,9 +60,8 @@ bool is_strained(const PoseGraph& graph, const PoseGraphReport& report, const Lo
 
 }  // namespace
 
-LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, Map& map,
-                       const PlaceIndex& places)
-    : options_(options), executor_(executor), map_(map), places_(places) {}
+LoopCloser::LoopCloser(const SlamOptions& options, const Executor& executor, IndexedMap& indexed)
+    : options_(options), executor_(executor), places_(indexed.places()), map_(indexed.edit()) {}
 
 std::vector<KeyframeId> LoopCloser::candidates(KeyframeId keyframe) const {
   std::vector<KeyframeId> near = neighbours_of(map_, keyframe);

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
-#include "cairn/features/place_index.h"
-#include "cairn/map/map.h"
 #include "cairn/map/pose_graph.h"
+#include "cairn/slam/indexed_map.h"
 #include "cairn/slam/loop_judge.h"
 #include "cairn/slam/options.h"
 
@@ -27,7 +26,7 @@ struct LoopReport {
 /// number of threads.
 class LoopCloser {
  public:
-  LoopCloser(const SlamOptions& options, const Executor& executor, Map& map, const PlaceIndex& places);
+  LoopCloser(const SlamOptions& options, const Executor& executor, IndexedMap& indexed);
 
   /// Tries the newest keyframe against keyframes that look like it and lie elsewhere in the map, and closes
   /// the loop that is found. Returns whether keyframes moved.
@@ -45,8 +44,8 @@ class LoopCloser {
 
   const SlamOptions& options_;
   const Executor& executor_;
-  Map& map_;
   const PlaceIndex& places_;
+  Map& map_;
   LoopJudge judge_;
   LoopReport report_;
   std::vector<PoseGraph::Edge> edges_;

@@ -42,7 +42,7 @@ class Walk {
       : drift_(drift),
         executor_(threads),
         maker_(std::move(world), kMemory),
-        closer_(options_, executor_, maker_.map, places_) {}
+        closer_(options_, executor_, maker_.indexed) {}
 
   /// Returns whether the map was bent.
   bool step_to(const Rigid3& truth) {
@@ -51,9 +51,7 @@ class Walk {
     odometry_.push_back(odometry_.empty() ? step : odometry_.back() * step);
     truths_.push_back(truth);
     const KeyframeId id = maker_.add(truth, placed);
-    const bool bent = closer_.close(id);
-    places_.add(id.value, map()[id].observed.features.descriptors);
-    return bent;
+    return closer_.close(id);
   }
 
   /// Keyframes 0 to count - 1 of the circle. Returns whether the map was bent.
@@ -87,7 +85,6 @@ class Walk {
   Rigid3 drift_;
   SlamOptions options_;
   Executor executor_;
-  PlaceIndex places_;
   test::MapMaker maker_;
   LoopCloser closer_;
   std::vector<Rigid3> truths_, odometry_;

@@ -36,20 +36,14 @@ struct Mapper::Adjustment {
   }
 };
 
-Mapper::Mapper(const SlamOptions& options, const Executor& executor, Map& map, PlaceIndex& places,
-               StageTimes& times)
-    : options_(options),
-      executor_(executor),
-      map_(map),
-      places_(places),
-      times_(times),
-      closer_(options, executor, map, places) {
-  for (const Keyframe& keyframe : map.keyframes()) {
+Mapper::Mapper(const SlamOptions& options, const Executor& executor, IndexedMap& indexed, StageTimes& times)
+    : options_(options), executor_(executor), indexed_(indexed), map_(indexed.edit()), times_(times) {
+  for (const Keyframe& keyframe : map_.keyframes()) {
     parts_ = std::max(parts_, keyframe.part + 1);
     const Rigid3 world_from_parent =
-        keyframe.parent.valid() ? map.world_from_camera(keyframe.parent) : Rigid3{};
-    odometry_.push_back({world_from_parent.inverse() * map.world_from_camera(keyframe.id),
-                         edge_information(map, keyframe.id)});
+        keyframe.parent.valid() ? map_.world_from_camera(keyframe.parent) : Rigid3{};
+    odometry_.push_back({world_from_parent.inverse() * map_.world_from_camera(keyframe.id),
+                         edge_information(map_, keyframe.id)});
   }
 }
 
@@ -60,32 +54,28 @@ std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
   if (!map_.keyframes().empty() && ++good_lost_frames_ < options_.lost_frames) return std::nullopt;
   good_lost_frames_ = 0;
   (void)take_over();
-  const KeyframeId id = map_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
+  const KeyframeId id = indexed_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
   odometry_.push_back({{}, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
-  places_.add(id.value, map_[id].observed.features.descriptors);
   return id;
 }
 
-KeyframeId Mapper::add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent) {
-  Stopwatch watch;
+KeyframeId Mapper::insert(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent) {
+  const Stopwatch watch;
   require(!adjustment_, "the last adjustment has been taken over");
   const Rigid3 parent_from_new = map_.world_from_camera(parent).inverse() * tracked.world_from_camera;
-  const KeyframeId id = add_keyframe(map_, frame, tracked, parent, map_.part_of(parent));
+  const KeyframeId id = add_keyframe(indexed_, frame, tracked, parent, map_.part_of(parent));
   odometry_.push_back({parent_from_new, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
   if (options_.mapping.triangulate) (void)add_landmarks_by_triangulation(map_, id);
   (void)join_with_neighbours(map_, id, options_);
-  times_.mapping.push_back(watch.lap());
-  if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(id);
-  times_.loops.push_back(watch.lap());
-  places_.add(id.value, map_[id].observed.features.descriptors);
-  for (const KeyframeId erased : erase_redundant(map_, id, options_.mapping)) places_.remove(erased.value);
-  start_adjustment(id);
+  times_.mapping.push_back(watch.seconds());
   return id;
 }
 
 void Mapper::start_adjustment(KeyframeId keyframe) {
+  require(!adjustment_, "the last adjustment has been taken over");
+  (void)erase_redundant(indexed_, keyframe, options_.mapping);
   adjustment_ = std::make_unique<Adjustment>();
   adjustment_->window = window_around(map_, keyframe, options_.mapping);
   Adjustment* running = adjustment_.get();
@@ -145,7 +135,7 @@ void Mapper::adjust_all() {
   for (std::int32_t part = 0; part < parts_; ++part) adjust_whole(part);
 }
 
-void Mapper::fill_graphs(PoseGraph& before, PoseGraph& after) const {
+void Mapper::fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const {
   std::vector<Rigid3> by_odometry(map_.keyframes().size());
   for (const Keyframe& keyframe : map_.keyframes()) {
     const auto k = static_cast<std::size_t>(keyframe.id.value);
@@ -158,7 +148,7 @@ void Mapper::fill_graphs(PoseGraph& before, PoseGraph& after) const {
       before.edges.push_back({keyframe.parent.value, keyframe.id.value, odometry_[k].parent_from_new,
                               odometry_[k].information, false});
   }
-  before.edges.insert(before.edges.end(), closer_.edges().begin(), closer_.edges().end());
+  before.edges.insert(before.edges.end(), loops.begin(), loops.end());
   if (!before.vertices.empty()) before.fixed = {before.vertices.front().id};
   after.edges = before.edges;
   after.fixed = before.fixed;

@@ -3,32 +3,35 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cairn/core/executor.h"
 #include "cairn/map/pose_graph.h"
-#include "cairn/slam/loop_closer.h"
+#include "cairn/slam/indexed_map.h"
 #include "cairn/slam/stage_times.h"
 #include "cairn/slam/tracked_frame.h"
 #include "cairn/slam/window.h"
 
 namespace cairn {
 
-/// Lets the map grow by keyframes and keeps it right: landmarks, loops, and after each keyframe an adjustment
-/// of the window around it. The adjustment runs beside tracking on a copy; its result is taken over a fixed
+/// Lets the map grow by keyframes and keeps it right: landmarks, and after each keyframe an adjustment of the
+/// window around it. The adjustment runs beside tracking on a copy; its result is taken over a fixed
 /// number of frames after its start, or before the next keyframe, so that the map does not depend on timing.
 class Mapper {
  public:
-  Mapper(const SlamOptions& options, const Executor& executor, Map& map, PlaceIndex& places,
-         StageTimes& times);
+  Mapper(const SlamOptions& options, const Executor& executor, IndexedMap& indexed, StageTimes& times);
   ~Mapper();
 
   /// The first keyframe of a part, where the frame has enough depth and none fitted for lost_frames.
   std::optional<KeyframeId> begin_part(const ObservedFrame& frame);
   /// The camera is not lost.
   void found() { good_lost_frames_ = 0; }
-  /// A keyframe of a tracked frame. No adjustment may be under way.
-  KeyframeId add(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent);
+  /// Makes a keyframe of a tracked frame, with the landmarks that it shows. No adjustment may be under way.
+  KeyframeId insert(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent);
+  /// Erases neighbours of the keyframe that have become redundant, and starts the adjustment of the window
+  /// around it. No adjustment may be under way.
+  void start_adjustment(KeyframeId keyframe);
   /// To be called once for each frame: takes an adjustment over whose time has come. True: the map moved.
   bool take_over_if_due();
   /// Takes the adjustment over that is under way, if any. True: the map moved.
@@ -36,16 +39,15 @@ class Mapper {
   /// After the last frame: adjusts the whole map.
   void finish();
 
-  [[nodiscard]] const LoopReport& loops() const { return closer_.report(); }
   /// After finish: of each landmark's point in the world, square metres, the keyframes taken as exact; zeros
   /// where unknown. None where the map was not adjusted.
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& covariances() const { return covariances_; }
-  /// The keyframes joined by odometry and loops: placed by odometry alone, and as they are now.
-  void fill_graphs(PoseGraph& before, PoseGraph& after) const;
+  /// Fills two graphs of the keyframes, joined by odometry and the `loops` given: placed by odometry alone,
+  /// and as they are now.
+  void fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const;
 
  private:
   struct Adjustment;
-  void start_adjustment(KeyframeId keyframe);
   void adjust_all();
   void adjust_whole(std::int32_t part);
   void put_back(std::int32_t part);
@@ -53,10 +55,9 @@ class Mapper {
 
   const SlamOptions& options_;
   const Executor& executor_;
+  IndexedMap& indexed_;
   Map& map_;
-  PlaceIndex& places_;
   StageTimes& times_;
-  LoopCloser closer_;
   std::unique_ptr<Adjustment> adjustment_;
   std::vector<Eigen::Matrix3d> covariances_;
   struct Step {

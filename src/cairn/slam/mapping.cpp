@@ -112,9 +112,11 @@ bool is_redundant(const Map& map, KeyframeId id, double share) {
 
 }  // namespace
 
-KeyframeId add_keyframe(Map& map, const ObservedFrame& observed, const TrackedFrame& tracked,
+KeyframeId add_keyframe(IndexedMap& indexed, const ObservedFrame& observed, const TrackedFrame& tracked,
                         KeyframeId parent, std::int32_t part) {
-  const KeyframeId id = map.add_keyframe(ObservedFrame(observed), tracked.world_from_camera, parent, part);
+  const KeyframeId id =
+      indexed.add_keyframe(ObservedFrame(observed), tracked.world_from_camera, parent, part);
+  Map& map = indexed.edit();
   for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
     const LandmarkId landmark = tracked.landmarks[i];
     if (!landmark.valid() || map[landmark].erased() || shows(map[landmark], id)) continue;
@@ -191,12 +193,14 @@ int erase_unconfirmed(Map& map) {
   return erased;
 }
 
-std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options) {
+std::vector<KeyframeId> erase_redundant(IndexedMap& indexed, KeyframeId keyframe,
+                                        const MappingOptions& options) {
+  const Map& map = indexed.map();
   std::vector<KeyframeId> erased;
   for (const KeyframeId id : neighbours_of(map, keyframe)) {
     const bool is_first = !map[id].parent.valid();
     if (is_first || !is_redundant(map, id, options.redundant_share)) continue;
-    map.erase(id);
+    indexed.erase(id);
     erased.push_back(id);
   }
   return erased;

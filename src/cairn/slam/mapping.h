@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cairn/slam/indexed_map.h"
 #include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
@@ -8,7 +9,7 @@ namespace cairn {
 // What a new keyframe brings to the map, one step each; all deterministic.
 
 /// Adds a keyframe, which shows the landmarks that its frame was tracked by.
-KeyframeId add_keyframe(Map& map, const ObservedFrame& observed, const TrackedFrame& tracked,
+KeyframeId add_keyframe(IndexedMap& indexed, const ObservedFrame& observed, const TrackedFrame& tracked,
                         KeyframeId parent, std::int32_t part);
 
 /// Each feature with depth that shows no landmark becomes one. Returns how many.
@@ -30,6 +31,7 @@ int erase_unconfirmed(Map& map);
 
 /// Erases neighbours of the keyframe, except the first of a part, whose landmarks are nearly all seen by
 /// three other keyframes at the same or a finer scale. Returns those erased.
-std::vector<KeyframeId> erase_redundant(Map& map, KeyframeId keyframe, const MappingOptions& options);
+std::vector<KeyframeId> erase_redundant(IndexedMap& indexed, KeyframeId keyframe,
+                                        const MappingOptions& options);
 
 }  // namespace cairn

@@ -12,15 +12,16 @@ namespace cairn {
 namespace {
 
 TEST(AddKeyframe, shows_the_landmarks_it_was_tracked_by) {
-  Map map(test::kRig, "ORB");
-  const KeyframeId first = map.add_keyframe(test::blank_frame(4), {}, {}, 0);
+  IndexedMap indexed(Map(test::kRig, "ORB"));
+  Map& map = indexed.edit();
+  const KeyframeId first = indexed.add_keyframe(test::blank_frame(4), {}, {}, 0);
   const LandmarkId seen = map.add_landmark({0, 0, 0}, {first, 0}),
                    gone = map.add_landmark({0, 0, 0}, {first, 1});
   map.erase(gone);
   TrackedFrame tracked;
   tracked.world_from_camera = test::aside(2);
   tracked.landmarks = {{}, seen, gone, seen};  // as a landmark that two others have become
-  const KeyframeId id = add_keyframe(map, test::blank_frame(4, 9), tracked, first, 3);
+  const KeyframeId id = add_keyframe(indexed, test::blank_frame(4, 9), tracked, first, 3);
   EXPECT_EQ(map[id].landmarks, (std::vector<LandmarkId>{{}, seen, {}, {}}));
   EXPECT_EQ(map[id].observed.frame, FrameId{9});
   EXPECT_EQ(map[id].world_from_camera.translation.x(), 2);
@@ -169,7 +170,7 @@ TEST(EraseUnconfirmed, erases_landmarks_that_were_not_seen_again) {
 }
 
 /// Five keyframes that all show the same 20 landmarks.
-Map five_alike() {
+IndexedMap five_alike() {
   Map map(test::kRig, "ORB");
   for (std::int32_t k = 0; k < 5; ++k) {
     ObservedFrame observed = test::blank_frame(20);
@@ -178,21 +179,23 @@ Map five_alike() {
     for (std::int32_t i = 0; i < 20; ++i)
       k == 0 ? (void)map.add_landmark({0, 0, 0}, {{0}, i}) : map.add_sighting({i}, {{k}, i});
   }
-  return map;
+  return IndexedMap(std::move(map));
 }
 
 /// Keyframe 3 shows everything at a finer scale, after keyframe 2 three are left, the first one stays.
 TEST(EraseRedundant, erases_what_three_others_show_as_well) {
-  Map map = five_alike();
-  EXPECT_EQ(erase_redundant(map, {4}, {}), (std::vector<KeyframeId>{{2}, {1}}));
-  EXPECT_EQ(map.keyframe_ids(), (std::vector<KeyframeId>{{0}, {3}, {4}}));
+  IndexedMap indexed = five_alike();
+  EXPECT_EQ(erase_redundant(indexed, {4}, {}), (std::vector<KeyframeId>{{2}, {1}}));
+  EXPECT_EQ(indexed.places().size(), 3U);
+  EXPECT_EQ(indexed.map().keyframe_ids(), (std::vector<KeyframeId>{{0}, {3}, {4}}));
 }
 
 TEST(EraseRedundant, keeps_a_keyframe_that_shows_enough_of_its_own) {
-  Map map = five_alike();
+  IndexedMap indexed = five_alike();
   for (std::int32_t i = 0; i < 3; ++i)
-    for (const std::int32_t k : {0, 1, 3}) map.remove_sighting({i}, {k});  // 15 % in one other only
-  const auto erased = erase_redundant(map, {4}, {});
+    for (const std::int32_t k : {0, 1, 3})
+      indexed.edit().remove_sighting({i}, {k});  // 15 % in one other only
+  const auto erased = erase_redundant(indexed, {4}, {});
   EXPECT_EQ(std::count(erased.begin(), erased.end(), KeyframeId{2}), 0);
 }
 

@@ -34,16 +34,16 @@ std::vector<KeyframeId> candidate_keyframes(const Map& map, KeyframeId before, i
   return candidates;
 }
 
-std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& places,
-                                         const ObservedFrame& observed, const SlamOptions& options,
-                                         const Executor& executor) {
+std::optional<Relocalization> relocalize(const IndexedMap& indexed, const ObservedFrame& observed,
+                                         const SlamOptions& options, const Executor& executor) {
+  const Map& map = indexed.map();
   const KeyframeId end{static_cast<std::int32_t>(map.keyframes().size())};
   const auto stream =
       0x100000000ULL + static_cast<std::uint64_t>(observed.frame.value);  // apart from the loop closer's
   auto candidates = candidate_keyframes(map, end, options.relocalization_keyframes, options.random_loops,
                                         options.seed, stream);
   for (const PlaceCandidate& place :
-       places.query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
+       indexed.places().query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
     add_candidate({place.id}, candidates);
   using Placed = std::optional<TrackedFrame>;
   const auto attempts = executor.map<Placed>(

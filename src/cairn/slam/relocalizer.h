@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
-#include "cairn/features/place_index.h"
+#include "cairn/slam/indexed_map.h"
 #include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
@@ -20,7 +20,7 @@ struct Relocalization {
 /// Tries the keyframes that look most like the frame, the last relocalization_keyframes and random_loops
 /// others: matches descriptors, verifies by geometry (loop_min_inliers), takes the one with the most inliers
 /// and refines its pose in the map around it. Deterministic at any number of threads.
-[[nodiscard]] std::optional<Relocalization> relocalize(const Map& map, const PlaceIndex& places,
+[[nodiscard]] std::optional<Relocalization> relocalize(const IndexedMap& indexed,
                                                        const ObservedFrame& observed,
                                                        const SlamOptions& options, const Executor& executor);
 

@@ -50,10 +50,7 @@ TEST(CandidateKeyframes, depend_on_seed_and_stream_alone) {
 /// Thirty keyframes past a wall of points.
 struct PastAWall {
   PastAWall() {
-    for (std::int32_t k = 0; k < 30; ++k) {
-      (void)maker.add(test::aside(0.6 * k));
-      places.add(k, maker.map[KeyframeId{k}].observed.features.descriptors);
-    }
+    for (std::int32_t k = 0; k < 30; ++k) (void)maker.add(test::aside(0.6 * k));
   }
   static test::World wall() {
     test::World world;
@@ -64,7 +61,6 @@ struct PastAWall {
     return world;
   }
   test::MapMaker maker{wall()};
-  PlaceIndex places;
   SlamOptions options;
 };
 
@@ -74,7 +70,7 @@ TEST(Relocalize, finds_a_frame_anywhere_in_the_map) {
   for (const double x : {0.4, 8.1, 17.3}) {
     const Rigid3 truth = test::aside(x) * Rigid3{rotation_exp({0.02, 0.1, 0.05}), {0, 0.1, 0.1}};
     const test::View view = scene.maker.world.see(truth, 100);
-    const auto found = relocalize(scene.maker.map, scene.places, view.observed, scene.options, Executor(2));
+    const auto found = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2));
     ASSERT_TRUE(found) << x;
     EXPECT_LT(motion_norm(found->tracked.world_from_camera.inverse() * truth), 6e-3) << x;
     EXPECT_NEAR(0.6 * found->keyframe.value, truth.translation.x(), 1);
@@ -92,8 +88,8 @@ TEST(Relocalize, finds_a_frame_anywhere_in_the_map) {
 TEST(Relocalize, is_the_same_at_any_number_of_threads) {
   const PastAWall scene;
   const test::View view = scene.maker.world.see(test::aside(3.3), 100);
-  const auto one = relocalize(scene.maker.map, scene.places, view.observed, scene.options, Executor(1));
-  const auto many = relocalize(scene.maker.map, scene.places, view.observed, scene.options, Executor(3));
+  const auto one = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(1));
+  const auto many = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(3));
   ASSERT_TRUE(one && many);
   EXPECT_EQ(one->keyframe, many->keyframe);
   EXPECT_EQ(one->tracked.world_from_camera.translation, many->tracked.world_from_camera.translation);
@@ -104,7 +100,7 @@ TEST(Relocalize, finds_nothing_in_a_strange_place) {
   PastAWall scene;
   for (test::WorldPoint& point : scene.maker.world.points) point.look += 100000;
   const test::View view = scene.maker.world.see(test::aside(3.3), 100);
-  EXPECT_FALSE(relocalize(scene.maker.map, scene.places, view.observed, scene.options, Executor(2)));
+  EXPECT_FALSE(relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2)));
 }
 
 /// The looks are all there, each at a point where it does not belong.
@@ -115,7 +111,7 @@ TEST(Relocalize, is_not_taken_in_by_looks_alone) {
   for (std::size_t i = points.size(); i > 1; --i)
     std::swap(points[i - 1].look, points[random.index(static_cast<std::uint32_t>(i))].look);
   const test::View view = scene.maker.world.see(test::aside(3.3), 100);
-  EXPECT_FALSE(relocalize(scene.maker.map, scene.places, view.observed, scene.options, Executor(2)));
+  EXPECT_FALSE(relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2)));
 }
 
 }  // namespace

@@ -50,50 +50,67 @@ class SlamPipeline {
       : options_(options),
         executor_(executor),
         result_(result),
-        tracker_(options, executor, result.map, places_),
-        mapper_(options, executor, result.map, places_, result.times) {
-    for (const KeyframeId id : result.map.keyframe_ids())
-      places_.add(id.value, result.map[id].observed.features.descriptors);
-  }
+        indexed_(std::move(result.map)),
+        tracker_(options, executor, indexed_),
+        mapper_(options, executor, indexed_, result.times),
+        closer_(options, executor, indexed_) {}
 
   void process(ObservedFrame&& frame) {
-    Stopwatch watch;
     if (mapper_.take_over_if_due()) tracker_.follow_map();
-    FrameTrack track = tracker_.track(std::move(frame));
-    result_.times.tracking.push_back(watch.lap());
+    FrameTrack track = this->track(std::move(frame));
     if (tracker_.lost()) {
       begin_part(track);
-    } else {
-      mapper_.found();
-      if (!options_.odometry)
-        memory_.remember(result_.frames.size(), tracker_.last_observed(), tracker_.last());
-      if (track.decision == KeyframeDecision::keyframe) add_keyframe(track);
+    } else if (track.decision == KeyframeDecision::keyframe) {
+      const KeyframeId keyframe = insert_keyframe();
+      close_loops(keyframe);
+      refer_to(keyframe, track);
+      mapper_.start_adjustment(keyframe);
     }
     result_.frames.push_back(track);
   }
 
   void finish() {
     mapper_.finish();
-    if (!options_.odometry) memory_.refine(result_.map, options_, executor_, result_.frames);
-    (void)erase_unconfirmed(result_.map);
+    if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
+    (void)erase_unconfirmed(indexed_.edit());
     result_.covariances = mapper_.covariances();
-    result_.loops = mapper_.loops();
-    mapper_.fill_graphs(result_.graph_before, result_.graph_after);
+    result_.loops = closer_.report();
+    mapper_.fill_graphs(closer_.edges(), result_.graph_before, result_.graph_after);
+    result_.map = indexed_.release();
   }
 
  private:
+  FrameTrack track(ObservedFrame&& frame) {
+    const Stopwatch watch;
+    const FrameTrack track = tracker_.track(std::move(frame));
+    result_.times.tracking.push_back(watch.seconds());
+    if (tracker_.lost()) return track;
+    mapper_.found();
+    if (!options_.odometry)
+      memory_.remember(result_.frames.size(), tracker_.last_observed(), tracker_.last());
+    return track;
+  }
+
   void begin_part(FrameTrack& track) {
     const auto keyframe = mapper_.begin_part(tracker_.last_observed());
     if (!keyframe) return;
-    tracker_.refer_to(*keyframe);
     track.decision = KeyframeDecision::keyframe;
-    track.reference = keyframe;
-    track.reference_from_frame = {};
+    refer_to(*keyframe, track);
   }
 
-  void add_keyframe(FrameTrack& track) {
+  KeyframeId insert_keyframe() {
     if (mapper_.take_over()) tracker_.follow_map();
-    const KeyframeId keyframe = mapper_.add(tracker_.last_observed(), tracker_.last(), tracker_.reference());
+    return mapper_.insert(tracker_.last_observed(), tracker_.last(), tracker_.reference());
+  }
+
+  void close_loops(KeyframeId keyframe) {
+    const Stopwatch watch;
+    if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(keyframe);
+    result_.times.loops.push_back(watch.seconds());
+  }
+
+  /// The frame that was tracked last is this keyframe.
+  void refer_to(KeyframeId keyframe, FrameTrack& track) {
     tracker_.refer_to(keyframe);
     track.reference = keyframe;
     track.reference_from_frame = {};
@@ -102,9 +119,10 @@ class SlamPipeline {
   const SlamOptions& options_;
   const Executor& executor_;
   SlamResult& result_;
-  PlaceIndex places_;
+  IndexedMap indexed_;
   Tracker tracker_;
   Mapper mapper_;
+  LoopCloser closer_;
   FrameMemory memory_;
 };
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cairn/core/random.h"
-#include "cairn/map/map.h"
+#include "cairn/slam/indexed_map.h"
 
 namespace cairn::test {
 
@@ -103,10 +103,14 @@ struct MapMaker {
   explicit MapMaker(World seen_world, int keyframes_remembered = std::numeric_limits<int>::max())
       : world(std::move(seen_world)), memory(keyframes_remembered), known(world.points.size()) {}
 
+  MapMaker(const MapMaker& other)
+      : world(other.world), memory(other.memory), known(other.known), indexed(other.indexed) {}
+  MapMaker& operator=(const MapMaker&) = delete;
+
   KeyframeId add(const Rigid3& truth, const Rigid3& placed) {
     const auto next = static_cast<std::int32_t>(map.keyframes().size());
     View view = world.see(truth, next);
-    const KeyframeId id = map.add_keyframe(std::move(view.observed), placed, {next - 1}, 0);
+    const KeyframeId id = indexed.add_keyframe(std::move(view.observed), placed, {next - 1}, 0);
     for (std::size_t i = 0; i < view.points.size(); ++i) {
       Known& point = known[view.points[i]];
       const Sighting sighting{id, static_cast<std::int32_t>(i)};
@@ -128,7 +132,8 @@ struct MapMaker {
   World world;
   int memory;
   std::vector<Known> known;
-  Map map{kRig, "ORB"};
+  IndexedMap indexed{Map(kRig, "ORB")};
+  Map& map = indexed.edit();
 };
 
 inline double distance(const Rigid3& a, const Rigid3& b) {

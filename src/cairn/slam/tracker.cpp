@@ -26,9 +26,8 @@ std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& o
 
 }  // namespace
 
-Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Map& map,
-                 const PlaceIndex& places)
-    : options_(options), executor_(executor), map_(map), places_(places) {}
+Tracker::Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed)
+    : options_(options), executor_(executor), indexed_(indexed), map_(indexed.map()) {}
 
 /// What the last frame shows, landmarks and other points, in this frame.
 std::vector<FoundPoint> Tracker::find_shown_before(const PosedFrame& frame, double radius_px) const {
@@ -106,7 +105,7 @@ bool Tracker::admit(const ObservedFrame& frame, const TrackedFrame& current, Key
 }
 
 std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, FrameTrack& track) {
-  auto found = relocalize(map_, places_, frame, options_, executor_);
+  auto found = relocalize(indexed_, frame, options_, executor_);
   if (!found || !admit(frame, found->tracked, found->keyframe, track)) return std::nullopt;
   track.relocalized = lost_;
   reference_ = found->keyframe;

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cairn/core/executor.h"
-#include "cairn/features/place_index.h"
+#include "cairn/slam/indexed_map.h"
 #include "cairn/slam/motion_limit.h"
 #include "cairn/slam/tracked_frame.h"
 
@@ -31,7 +31,7 @@ struct FrameTrack {
 /// refused, whichever of them found it. It reads the map and never writes it. Deterministic.
 class Tracker {
  public:
-  Tracker(const SlamOptions& options, const Executor& executor, const Map& map, const PlaceIndex& places);
+  Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed);
 
   /// The pose of the next frame, which stays here as last(). Its decision is keyframe where one is due.
   FrameTrack track(ObservedFrame&& frame);
@@ -60,8 +60,8 @@ class Tracker {
 
   const SlamOptions& options_;
   const Executor& executor_;
+  const IndexedMap& indexed_;
   const Map& map_;
-  const PlaceIndex& places_;
   KeyframeId reference_;
   ObservedFrame observed_;
   TrackedFrame last_;

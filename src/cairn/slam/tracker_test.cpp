@@ -14,7 +14,6 @@ class TrackerTest : public testing::Test {
   TrackerTest() {
     maker_.world.noise_px = 0.3;
     const KeyframeId first = maker_.add({});
-    places_.add(first.value, maker_.map[first].observed.features.descriptors);
     (void)tracker_.track(ObservedFrame(maker_.map[first].observed));
     tracker_.refer_to(first);
   }
@@ -28,10 +27,9 @@ class TrackerTest : public testing::Test {
   }
 
   test::MapMaker maker_{test::points_ahead(600, 12)};
-  PlaceIndex places_;
   SlamOptions options_;
   Executor executor_;
-  Tracker tracker_{options_, executor_, maker_.map, places_};
+  Tracker tracker_{options_, executor_, maker_.indexed};
   std::int32_t frame_ = 0;
 };
 
@@ -155,9 +153,8 @@ TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
 TEST(Tracker, without_a_map_nothing_is_tracked) {
   const SlamOptions options;
   const Executor executor;
-  const Map map(test::kRig, "ORB");
-  const PlaceIndex places;
-  Tracker tracker(options, executor, map, places);
+  const IndexedMap map(Map(test::kRig, "ORB"));
+  Tracker tracker(options, executor, map);
   EXPECT_FALSE(tracker.track(test::points_ahead(300, 1).see({}, 0).observed).tracked());
   EXPECT_TRUE(tracker.lost());
 }
