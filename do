@@ -13,6 +13,7 @@ usage: ./do COMMAND [ARGUMENTS]
   demo               build, then simulate a room, map it and compare with the truth
   asan [CTEST ARGS]  the tests with the address and undefined-behaviour sanitizers of clang
   tsan [CTEST ARGS]  the tests with the thread sanitizer
+  gcc                build the program with g++, whose warnings are errors: build/gcc/cairn
   bench [ARGS]       time cairn beside its peers and print a table; ARGS go to Google Benchmark,
                      e.g. ./do bench --benchmark_filter=ORB
   tidy [FILES]       clang-tidy over our sources, or over these
@@ -28,7 +29,7 @@ END
 
 # Packages, each with its reason. The libraries are explained in cmake/dependencies.cmake.
 packages_build=(
-  g++ cmake ninja-build pkg-config      # compiler, build description, build tool, finds turbojpeg
+  clang-16 cmake ninja-build pkg-config  # compiler (half the time of g++), build description, build tool, finds turbojpeg
   libeigen3-dev                         # linear algebra
   libtbb-dev                            # parallel loops
   libfmt-dev                            # text formatting
@@ -47,9 +48,10 @@ packages_test=(
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
+packages_gcc=(g++)
 packages_sanitizers=(
-  clang-16 libclang-rt-16-dev  # half the build time of g++ with sanitizers, and a second compiler
-  llvm-16                      # names and lines in what the sanitizers report
+  libclang-rt-16-dev  # what sanitized programs are linked with
+  llvm-16             # names and lines in what the sanitizers report
 )
 packages_tidy=(clang-tidy-14 python3 universal-ctags)
 packages_format=(clang-format-14 python3)
@@ -107,6 +109,12 @@ build() {
   configure release
   [ -x build/release/cairn ] || say "building; the first time takes some minutes"
   ninja --quiet -C build/release cairn
+}
+
+build_with_gcc() {
+  need "${packages_build[@]}" "${packages_gcc[@]}"
+  configure gcc
+  ninja --quiet -C build/gcc
 }
 
 build_and_test() {  # preset, ctest arguments
@@ -177,6 +185,7 @@ main() {
     test) build_and_test release "$@" ;;
     asan) build_and_test asan "$@" ;;
     tsan) TSAN_OPTIONS="suppressions=$PWD/tests/tsan.supp ignore_noninstrumented_modules=1" build_and_test tsan "$@" ;;
+    gcc) build_with_gcc ;;
     demo) demo ;;
     bench) bench "$@" ;;
     tidy) tidy "$@" ;;
