@@ -49,8 +49,8 @@ struct Options {
   int count = 2;
   bool check = true;
   std::string name = "any";
-  std::optional<double> depth;
-  std::optional<std::int64_t> start;
+  std::optional<double> depth = {};
+  std::optional<std::int64_t> start = {};
 };
 
 void visit(Options& options, ParameterVisitor& visitor) {

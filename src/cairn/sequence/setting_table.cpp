@@ -66,50 +66,56 @@ std::string format_optional(const std::optional<T>& value) {
 
 }  // namespace
 
-void SettingTable::add(const Parameter& parameter, Entry entry) {
-  entry.row.name = parameter.name;
-  entry.row.meaning = parameter.meaning;
-  if (entry.row.accepted.empty()) entry.row.accepted = parameter.range.describe();
+SettingTable::Entry& SettingTable::add(const Parameter& parameter, const std::string& expected,
+                                       std::function<bool(const std::string&)> set,
+                                       std::function<std::string()> value) {
+  const std::string accepted = parameter.range.describe();
+  Entry& entry = entries_.emplace_back();
+  entry.row = {parameter.name, "", accepted.empty() ? expected : accepted, parameter.meaning};
   entry.former_name = parameter.former_name;
-  entries_.push_back(std::move(entry));
+  entry.expected = expected;
+  entry.set = std::move(set);
+  entry.value = std::move(value);
+  return entry;
 }
 
 void SettingTable::parameter(const Parameter& parameter, double& value) {
-  add(parameter, {.expected = "a number",
-                  .set = [&value](const std::string& text) { return assign(text, value, parse_number); },
-                  .value = [&value] { return fmt::format("{}", value); }});
+  add(
+      parameter, "a number", [&value](const std::string& text) { return assign(text, value, parse_number); },
+      [&value] { return fmt::format("{}", value); });
 }
 
 void SettingTable::parameter(const Parameter& parameter, int& value) {
-  add(parameter, {.expected = "a whole number",
-                  .set = [&value](const std::string& text) { return assign(text, value, parse_int); },
-                  .value = [&value] { return fmt::format("{}", value); }});
+  add(
+      parameter, "a whole number",
+      [&value](const std::string& text) { return assign(text, value, parse_int); },
+      [&value] { return fmt::format("{}", value); });
 }
 
 void SettingTable::parameter(const Parameter& parameter, bool& value) {
-  add(parameter, {.row = {.accepted = "yes or no"},
-                  .expected = "yes or no",
-                  .set = [&value](const std::string& text) { return parse_bool(text, value); },
-                  .value = [&value] { return std::string(value ? "yes" : "no"); }});
+  add(
+      parameter, "yes or no", [&value](const std::string& text) { return parse_bool(text, value); },
+      [&value] { return std::string(value ? "yes" : "no"); });
 }
 
 void SettingTable::parameter(const Parameter& parameter, std::string& value) {
-  add(parameter, {.expected = "a text",
-                  .is_text = true,
-                  .set = [&value](const std::string& text) { return value = text, true; },
-                  .value = [&value] { return value; }});
+  Entry& entry = add(
+      parameter, "a text", [&value](const std::string& text) { return value = text, true; },
+      [&value] { return value; });
+  entry.is_text = true;
 }
 
 void SettingTable::parameter(const Parameter& parameter, std::optional<double>& value) {
-  add(parameter, {.expected = "a number",
-                  .set = [&value](const std::string& text) { return assign(text, value, parse_number); },
-                  .value = [&value] { return format_optional(value); }});
+  add(
+      parameter, "a number", [&value](const std::string& text) { return assign(text, value, parse_number); },
+      [&value] { return format_optional(value); });
 }
 
 void SettingTable::parameter(const Parameter& parameter, std::optional<std::int64_t>& value) {
-  add(parameter, {.expected = "a whole number",
-                  .set = [&value](const std::string& text) { return assign(text, value, parse_integer); },
-                  .value = [&value] { return format_optional(value); }});
+  add(
+      parameter, "a whole number",
+      [&value](const std::string& text) { return assign(text, value, parse_integer); },
+      [&value] { return format_optional(value); });
 }
 
 void SettingTable::retired(const RetiredParameter& parameter) {

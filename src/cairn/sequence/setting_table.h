@@ -38,7 +38,7 @@ class SettingTable : public ParameterVisitor {
 
  private:
   struct Entry {
-    ParameterRow row;         // its value is that at the time of binding, and not used
+    ParameterRow row;         // without its value
     std::string former_name;  // empty: none
     std::string expected;     // the kind of value, for messages
     bool is_text = false;
@@ -49,7 +49,8 @@ class SettingTable : public ParameterVisitor {
     std::string name, accepted, reason;
   };
 
-  void add(const Parameter& parameter, Entry entry);
+  Entry& add(const Parameter& parameter, const std::string& expected,
+             std::function<bool(const std::string&)> set, std::function<std::string()> value);
   [[nodiscard]] const Entry* find(const std::string& name) const;
   [[nodiscard]] const Retired* find_retired(const std::string& name) const;
   [[noreturn]] void fail_unknown(const Setting& setting) const;
