@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <utility>
 
 #include "cairn/core/text.h"
 
@@ -181,6 +182,14 @@ Option CommandLine::add_flag(const std::string& names, bool& value, const std::s
   return Option(*app_->add_flag(names, value, description));
 }
 
+Option CommandLine::add_report(const std::string& names, const std::string& description,
+                               std::function<std::string(const std::string&)> text) {
+  const auto report = [text = std::move(text)](const std::string& value) {
+    throw CLI::CallForVersion(text(value), 0);  // CLI11's way to end with a text before all else is looked at
+  };
+  return Option(*app_->add_option_function<std::string>(names, report, description));
+}
+
 void CommandLine::split_last(std::vector<std::string>& values, std::string& last, const std::string& name,
                              const std::string& usage) {
   app_->formatter(std::make_shared<FixedUsage>(usage));
@@ -218,6 +227,9 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
     fmt::print("{}", app_->help("cairn"));
+    return 0;
+  } catch (const CLI::CallForVersion& report) {
+    fmt::print("{}", report.what());
     return 0;
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "cairn {}: {}\n  'cairn {} --help' shows the options and an example.\n",

@@ -79,6 +79,11 @@ class CommandLine {
   Option add_option(const std::string& names, std::vector<double>& value, const std::string& description);
   Option add_flag(const std::string& names, bool& value, const std::string& description);
 
+  /// Adds an option with a value that makes parse() print `text` of that value and end the program with 0,
+  /// whatever else is given or missing.
+  Option add_report(const std::string& names, const std::string& description,
+                    std::function<std::string(const std::string&)> text);
+
   /// Makes the last of the positional arguments `values` the argument `last`, named `name` in messages;
   /// `usage` is what --help shows of them.
   void split_last(std::vector<std::string>& values, std::string& last, const std::string& name,

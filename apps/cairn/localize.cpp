@@ -14,6 +14,7 @@
 #include "localize_pictures.h"
 #include "localize_query.h"
 #include "map_pictures.h"
+#include "parameter_arguments.h"
 #include "pose_arguments.h"
 #include "recording_checks.h"
 
@@ -47,22 +48,16 @@ void declare(CommandLine& app, LocalizeArguments& arguments) {
   app.add_flag("--draw", arguments.draw, "a picture for each image in RUN/pictures");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
-  app.footer([] {
-    return "Example: cairn localize demo/map demo/street -o demo/found\n"
-           "         cairn localize RUN image.png -o found --camera camera.yaml --draw\n"
-           "Parameters for --set and --config with their defaults; the README says what they mean:\n" +
-           LocalizeParameters().table().format();
-  });
+  add_parameter_help(app,
+                     "Example: cairn localize demo/map demo/street -o demo/found\n"
+                     "         cairn localize RUN image.png -o found --camera camera.yaml --draw\n",
+                     default_rows<LocalizeParameters>);
 }
 
 LocalizeParameters gather_parameters(const LocalizeArguments& arguments, const MapInfo& map) {
   LocalizeParameters parameters;
   parameters.sequence = arguments.sequence.options();
-  const SettingTable table = parameters.table();
-  if (!arguments.common.config.empty()) {
-    for (const Setting& setting : read_settings(arguments.common.config)) table.apply(setting);
-  }
-  for (const std::string& text : arguments.common.settings) table.apply(parse_setting(text, "--set"));
+  apply_settings(arguments.common, table_of(parameters));
   parameters.localize.seed = arguments.common.seed;
   parameters.validate(map);
   return parameters;

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "cairn/core/parameter.h"
 #include "cairn/localize/options.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/settings.h"
 
 namespace cairn::app {
 
@@ -17,10 +17,11 @@ struct LocalizeParameters {
   double contrast = FeatureOptions{}.contrast;  ///< of SIFT: the least that a feature has
   std::string descriptor;                       ///< empty: the map's, which it has to be
 
-  /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.
-  [[nodiscard]] SettingTable table();
-  /// InputError for a parameter out of range, or a descriptor that is not the map's.
+  /// Throws InputError for a parameter out of range, or a descriptor that is not the map's.
   void validate(const MapInfo& map) const;
 };
+
+/// Visits all parameters of `cairn localize`.
+void visit(LocalizeParameters& parameters, ParameterVisitor& visitor);
 
 }  // namespace cairn::app

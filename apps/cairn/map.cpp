@@ -14,6 +14,7 @@
 #include "map_outputs.h"
 #include "map_parameters.h"
 #include "map_pictures.h"
+#include "parameter_arguments.h"
 #include "pose_arguments.h"
 #include "recording_checks.h"
 
@@ -38,24 +39,19 @@ void declare(CommandLine& app, MapArguments& arguments) {
   add_pose_options(app, arguments.poses);
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true});
-  app.footer([] {
-    return "Example: cairn map SEQ --poses poses.txt -o map\n"
-           "         cairn map SEQ --poses gnss.csv -o map --export colmap\n"
-           "Stopped by Ctrl-C or killed, the same command goes on where it was: what is done lies in "
-           "MAP.unfinished.\n"
-           "Parameters for --set and --config with their defaults; docs/mapping.md says what they mean:\n" +
-           MapParameters().table().format();
-  });
+  add_parameter_help(
+      app,
+      "Example: cairn map SEQ --poses poses.txt -o map\n"
+      "         cairn map SEQ --poses gnss.csv -o map --export colmap\n"
+      "Stopped by Ctrl-C or killed, the same command goes on where it was: what is done lies in "
+      "MAP.unfinished.\n",
+      default_rows<MapParameters>);
 }
 
 MapParameters gather_parameters(const MapArguments& arguments) {
   MapParameters parameters;
   parameters.sequence = arguments.sequence.options();
-  const SettingTable table = parameters.table();
-  if (!arguments.common.config.empty()) {
-    for (const Setting& setting : read_settings(arguments.common.config)) table.apply(setting);
-  }
-  for (const std::string& text : arguments.common.settings) table.apply(parse_setting(text, "--set"));
+  apply_settings(arguments.common, table_of(parameters));
   parameters.survey.validate();
   return parameters;
 }
@@ -91,7 +87,7 @@ int run_map(int argc, char** argv) {
 
   const Stopwatch watch;
   MapParameters parameters = gather_parameters(arguments);
-  const std::string settings = parameters.table().format();
+  const std::string settings = table_of(parameters).format();
   const Sequence sequence = open_sequence(arguments.sequence.folder, parameters.sequence);
   print_warnings(sequence.report.warnings);
   if (!arguments.exported.empty()) check_colmap_names(sequence);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cairn/core/parameter.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/settings.h"
 #include "cairn/survey/options.h"
 
 namespace cairn::app {
@@ -11,9 +11,9 @@ namespace cairn::app {
 struct MapParameters {
   SequenceOptions sequence;
   SurveyOptions survey;
-
-  /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.
-  [[nodiscard]] SettingTable table();
 };
+
+/// Visits all parameters of `cairn map`, in the order of config.yaml.
+void visit(MapParameters& parameters, ParameterVisitor& visitor);
 
 }  // namespace cairn::app

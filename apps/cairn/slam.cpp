@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "common.h"
 #include "fusion.h"
+#include "parameter_arguments.h"
 #include "recording_checks.h"
 #include "slam_outputs.h"
 #include "slam_parameters.h"
@@ -34,25 +35,18 @@ void declare(CommandLine& app, SlamArguments& arguments) {
   app.add_flag("--no-octree", arguments.no_octree, "write no octree");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
-  app.footer([] {
-    return "Example: cairn slam demo/room -o demo/run\n"
-           "         cairn slam SEQ2 -o RUN2 --map RUN\n"
-           "         cairn slam SEQ -o RUN --set features=1000 --set keyframe_threshold=0.2\n"
-           "Parameters for --set and --config with their defaults; the README says what they mean, and "
-           "RUN/config.yaml "
-           "holds those of a run:\n" +
-           SlamParameters().table().format();
-  });
+  add_parameter_help(app,
+                     "Example: cairn slam demo/room -o demo/run\n"
+                     "         cairn slam SEQ2 -o RUN2 --map RUN\n"
+                     "         cairn slam SEQ -o RUN --set features=1000 --set keyframe_threshold=0.2\n"
+                     "RUN/config.yaml holds the parameters of a run, for --config of another.\n",
+                     default_rows<SlamParameters>);
 }
 
 SlamParameters gather_parameters(const SlamArguments& arguments) {
   SlamParameters parameters;
   parameters.sequence = arguments.sequence.options();
-  const SettingTable table = parameters.table();
-  if (!arguments.common.config.empty()) {
-    for (const Setting& setting : read_settings(arguments.common.config)) table.apply(setting);
-  }
-  for (const std::string& text : arguments.common.settings) table.apply(parse_setting(text, "--set"));
+  apply_settings(arguments.common, table_of(parameters));
   parameters.slam.seed = arguments.common.seed;
   parameters.slam.odometry = arguments.odometry;
   parameters.validate();
@@ -74,7 +68,7 @@ int warn_if_never_followed(const SlamResult& result) {
   if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
   const auto is_too_far = [](const FrameTrack& track) { return track.decision == KeyframeDecision::too_far; };
   if (std::any_of(result.frames.begin(), result.frames.end(), is_too_far)) {
-    fmt::print(stderr, "cairn slam: no motion below max_norm was found between any two of {} frames.\n",
+    fmt::print(stderr, "cairn slam: no motion below max_motion was found between any two of {} frames.\n",
                result.frames.size());
     return 1;
   }

@@ -18,6 +18,7 @@
 #include "cairn/map/map_file.h"
 #include "fusion.h"
 #include "map_pictures.h"
+#include "parameter_arguments.h"
 
 namespace cairn::app {
 namespace {
@@ -144,8 +145,8 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
   write_map(folder / "map", result.map, result.covariances);
   write_map_picture(folder / "map", folder);
   write_file(folder / "camera.yaml", format_calibration(sequence.calibration));
-  write_file(folder / "config.yaml",
-             "# Every parameter of this run; cairn slam --config reads it.\n" + parameters.table().format());
+  write_file(folder / "config.yaml", "# Every parameter of this run; cairn slam --config reads it.\n" +
+                                         table_of(parameters).format());
 }
 
 void write_dense_files(const std::filesystem::path& folder, const Sequence& sequence,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "cairn/core/parameter.h"
 #include "cairn/dense/cloud.h"
 #include "cairn/dense/occupancy.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/settings.h"
 #include "cairn/slam/options.h"
 
 namespace cairn::app {
@@ -16,9 +16,11 @@ struct SlamParameters {
   CloudOptions cloud;
   OccupancyOptions octree;
 
-  /// The names of the parameters, bound to these fields. Not to be used longer than this object lives.
-  [[nodiscard]] SettingTable table();
+  /// Throws InputError for a parameter out of range.
   void validate() const;
 };
+
+/// Visits all parameters of `cairn slam`, in the order of config.yaml.
+void visit(SlamParameters& parameters, ParameterVisitor& visitor);
 
 }  // namespace cairn::app

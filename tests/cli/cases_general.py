@@ -36,7 +36,7 @@ CASES = [
     *(Case(f"--set of {command} takes one value", f"{command} --set {setting} no {rest}", ("no: expected ", "found nothing of that name"))
       for command, setting, rest in (("slam", "features=1000", "-o run"), ("map", "features=1000", "-o map"),
                                      ("localize", "features=1000", "seq -o found"))),
-    Case("two --set before the sequence", "slam --set features=1000 --set max_norm=2 no -o run", ("no: expected a folder with a sequence",)),
+    Case("two --set before the sequence", "slam --set features=1000 --set max_motion=2 no -o run", ("no: expected a folder with a sequence",)),
     Case("--set without a value", "slam no -o run --set", ("--set",)),
     Case("option with a letter missing", "slam seq -o run --thread 2", ("there is no option --thread. Did you mean --threads?",)),
     Case("option that is like none", "simulate room -o room --fps 3", ("there is no option --fps.\n",)),

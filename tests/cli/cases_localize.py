@@ -83,7 +83,7 @@ CASES = [
          code=1, leaves=("run", *LEFT)),
     Case("prior poses", RUN + " --prior poses.txt", (NOT_FOUND,), (MAP, SEQ, trajectory()), code=1, leaves=("run", *LEFT)),
     Case("unknown parameter", RUN + " --set featurs=10", ("featurs", "features"), (MAP, SEQ)),
-    Case("parameter out of range", RUN + " --set radius_px=0", ("radius_px: expected above 0",), (MAP, SEQ)),
+    Case("parameter out of range", RUN + " --set radius_px=0", ("radius_px: expected pixels above 0",), (MAP, SEQ)),
     Case("folder that cairn did not write", "localize map seq -o other", ("other",), (MAP, SEQ, file("other/notes.txt", "mine"))),
 ]
 

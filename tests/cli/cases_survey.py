@@ -115,7 +115,7 @@ CASES = [
     out_of_range("adjust.min_frames=1", "adjust.min_frames: expected at least 2 frames, found 1"),
     out_of_range("adjust.sigma_px=nan", "adjust.sigma_px"),
     out_of_range("clean.max_std_m=0", "clean.max_std_m: expected metres above 0, found 0"),
-    out_of_range("clean.depth.max=-5", "clean.depth.max: expected a number from 0, found -5"),
+    out_of_range("clean.depth.max=-5", "clean.depth.max: expected metres from 0, found -5"),
     out_of_range("clean.duplicate_sigmas=-1", "clean.duplicate_sigmas: expected standard deviations from 0, found -1"),
     # the sequence
     Case("no such sequence", "map seq -o map", ("seq: expected",)),

@@ -151,17 +151,17 @@ class SmallStreet(program.Quality):
             self.assertIn("Exchange the images of image_0 and image_1", said)
         self.cairn("localize", "map", "street", "-o", "found", "--mono", "--quiet")  # the right camera's are as good
 
-    def test_a_motion_beyond_max_norm_is_refused(self):
-        self.assertEqual(self.slam("--set", "max_norm=2")["frames"]["tracked"], 14)  # 8 m/s at 10 Hz
-        said = self.complaints("slam", "street", "-o", "run", "--set", "max_norm=0.3", "--quiet", code=1)
-        self.assertIn("moved further than max_norm = 0.3", said)
+    def test_a_motion_beyond_max_motion_is_refused(self):
+        self.assertEqual(self.slam("--set", "max_motion=2")["frames"]["tracked"], 14)  # 8 m/s at 10 Hz
+        said = self.complaints("slam", "street", "-o", "run", "--set", "max_motion=0.3", "--quiet", code=1)
+        self.assertIn("moved further than max_motion = 0.3", said)
         rows = (self.folder / "run/frames.csv").read_text()
         self.assertGreaterEqual(rows.count("too far"), 4, rows)
 
-    def test_a_start_map_does_not_lift_max_norm(self):
+    def test_a_start_map_does_not_lift_max_motion(self):
         self.slam()
-        said = self.complaints("slam", "street", "-o", "again", "--map", "run", "--set", "max_norm=0.3", "--quiet", code=1)
-        self.assertIn("moved further than max_norm = 0.3", said)
+        said = self.complaints("slam", "street", "-o", "again", "--map", "run", "--set", "max_motion=0.3", "--quiet", code=1)
+        self.assertIn("moved further than max_motion = 0.3", said)
 
     def test_the_first_pairs_may_be_unreadable(self):
         (self.images[0] / "000000.png").write_bytes(b"")

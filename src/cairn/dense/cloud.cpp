@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <utility>
 
 #include "cairn/core/error.h"
@@ -22,22 +21,23 @@ CloudBounds bounds_of(const Cloud& cloud) {
   return bounds;
 }
 
+void visit(CloudOptions& options, ParameterVisitor& visitor) {
+  visitor.parameter({"voxel_grid", above(0, "metres"), "Size of the voxels of the cloud, one point for each.",
+                     "", "0.01 suits a room, 0.05 a building."},
+                    options.voxel_size);
+  visitor.parameter({"cloud.max_depth", above(0, "metres"), "A larger depth does not enter the cloud.", "",
+                     "4 suits a Kinect."},
+                    options.max_depth);
+}
+
 void CloudOptions::validate() const {
-  if (!(voxel_size > 0) || !std::isfinite(voxel_size)) {
-    throw InputError({"voxel_grid", 0, "a voxel size above 0 m", fmt::format("{}", voxel_size),
-                      "0.01 suits a room, 0.05 a building."});
-  }
-  if (!(min_depth >= 0)) {
-    throw InputError({"min_depth", 0, "a depth of 0 m or more", fmt::format("{}", min_depth),
-                      "Leave it out for the default."});
-  }
-  if (!(max_depth > min_depth) || !std::isfinite(max_depth)) {
-    throw InputError({"max_depth", 0, fmt::format("a depth above {} m", min_depth),
+  check_ranges(*this);
+  const Range depth = from(0, "metres"), step = from(0, "a share", "keeps all pixels");
+  check_parameter(depth.contains(min_depth), "min_depth", depth.describe().c_str(), min_depth);
+  check_parameter(step.contains(max_edge_step), "max_edge_step", step.describe().c_str(), max_edge_step);
+  if (!(max_depth > min_depth)) {
+    throw InputError({"cloud.max_depth", 0, fmt::format("a depth above {} m", min_depth),
                       fmt::format("{}", max_depth), "4 suits a Kinect."});
-  }
-  if (!(max_edge_step >= 0)) {
-    throw InputError({"max_edge_step", 0, "a share of 0 or more", fmt::format("{}", max_edge_step),
-                      "0 keeps all pixels, 0.05 leaves out those at edges in depth."});
   }
 }
 

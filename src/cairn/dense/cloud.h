@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cairn/core/parameter.h"
 #include "cairn/dense/voxel_sums.h"
 
 namespace cairn {
@@ -35,9 +36,13 @@ struct CloudOptions {
   /// background. A plane seen at 80 degrees stays (0.02); 0 keeps all.
   double max_edge_step = 0.05;
 
-  /// InputError naming the field for a voxel of 0, a negative or reversed depth, a negative step.
+  /// Throws InputError naming the parameter or field for a voxel of 0, a negative or reversed depth, a
+  /// negative step.
   void validate() const;
 };
+
+/// Visits voxel_grid and cloud.max_depth; the other fields are the program's own.
+void visit(CloudOptions& options, ParameterVisitor& visitor);
 
 /// Fuses frames into one point per voxel: the centroid of all points that fell into it, with their mean
 /// colour. The result does not depend on the order of the frames nor on threads: sums are integers.

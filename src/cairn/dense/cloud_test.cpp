@@ -138,7 +138,8 @@ TEST(CloudBuilder, RefusesOptionsThatMeanNothing) {
     CloudBuilder({.min_depth = 1, .max_depth = 0.5});
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "max_depth: expected a depth above 1 m, found 0.5.\n  4 suits a Kinect.");
+    EXPECT_STREQ(error.what(),
+                 "cloud.max_depth: expected a depth above 1 m, found 0.5.\n  4 suits a Kinect.");
   }
 }
 

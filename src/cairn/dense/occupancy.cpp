@@ -46,9 +46,19 @@ void add_color(VoxelSum& total, const VoxelSum& sum) {
 
 }  // namespace
 
+void visit(OccupancyOptions& options, ParameterVisitor& visitor) {
+  visitor.parameter(
+      {"octree.resolution", above_up_to(0, 1000, "metres"), "Size of the smallest cubes of the octree."},
+      options.resolution);
+  visitor.parameter({"octree.max_range", above_up_to(0, 1e4, "metres"),
+                     "Distance from the camera up to which points count; farther ones only free the way up "
+                     "to there."},
+                    options.max_range);
+}
+
 void OccupancyOptions::validate() const {
-  require_between("resolution", resolution, 0, 1000);
-  require_between("max_range", max_range, resolution, 1e4);
+  check_ranges(*this);
+  check_parameter(max_range > resolution, "octree.max_range", "metres above octree.resolution", max_range);
   require_between("hit", hit, 0.5, 1);
   require_between("miss", miss, 0, 0.5);
   require_between("clamp_min", clamp_min, 0, 0.5);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "cairn/core/parameter.h"
 #include "cairn/dense/cloud.h"
 #include "cairn/dense/voxel_index.h"
 #include "cairn/dense/voxel_sums.h"
@@ -23,9 +24,12 @@ struct OccupancyOptions {
   double clamp_max = 0.971;
   double threshold = 0.5;  ///< a voxel at or above is occupied
 
-  /// InputError naming the field.
+  /// Throws InputError naming the parameter or field that is out of range.
   void validate() const;
 };
+
+/// Visits octree.resolution and octree.max_range; the other fields are the sensor model's.
+void visit(OccupancyOptions& options, ParameterVisitor& visitor);
 
 /// One voxel of the map that was seen at least once.
 struct OccupancyVoxel {

@@ -214,7 +214,7 @@ TEST(OccupancyOptions, NameTheFieldThatIsWrong) {
   } catch (const InputError& error) {
     EXPECT_STREQ(
         error.what(),
-        "resolution: expected a value between 0 and 1000, found 0.\n  Leave it out for the default.");
+        "octree.resolution: expected metres above 0, up to 1000, found 0.\n  Leave it out for the default.");
   }
   EXPECT_THROW(OccupancyGrid({.max_range = -1}), InputError);
   EXPECT_THROW(OccupancyGrid({.hit = 0.4}), InputError);

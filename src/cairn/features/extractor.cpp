@@ -51,6 +51,22 @@ const std::vector<std::string>& descriptor_names() {
   return kNames;
 }
 
+void visit(FeatureOptions& options, ParameterVisitor& visitor) {
+  visitor.parameter({"detector", any("a name"),
+                     "ORB and SIFT are cairn's own and describe only what they detect; OPENCV_ORB, "
+                     "OPENCV_SIFT, AKAZE and BRISK are OpenCV's and mix if they fit together."},
+                    options.detector);
+  visitor.parameter({"descriptor", any("a name"),
+                     "The same names, and ROOTSIFT, which describes the features of the detector SIFT."},
+                    options.descriptor);
+  visitor.parameter({"features", at_least(1, "feature per image"), "Most features taken of an image."},
+                    options.count);
+  visitor.parameter(
+      {"contrast", above(0, "a share of the grey range"),
+       "Weakest feature that the detector SIFT takes; less gives more features of dim texture."},
+      options.contrast);
+}
+
 void FeatureOptions::validate() const {
   check_name("detector", detector, detector_names());
   check_name("descriptor", descriptor, descriptor_names());
@@ -59,9 +75,7 @@ void FeatureOptions::validate() const {
         {"descriptor", 0, fmt::format("a descriptor that can describe {} keypoints", upper(detector)),
          fmt::format("'{}'", descriptor), fmt::format("Set descriptor to {}.", upper(detector))});
   }
-  if (count < 1)
-    throw InputError({"features", 0, "at least 1 feature per image", fmt::format("{}", count),
-                      "Leave it out for the default."});
+  check_ranges(*this);
 }
 
 std::unique_ptr<Extractor> make_extractor(const FeatureOptions& options) {

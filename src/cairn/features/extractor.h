@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
+#include "cairn/core/parameter.h"
 #include "cairn/features/features.h"
 #include "cairn/image/image.h"
 
@@ -20,9 +21,13 @@ struct FeatureOptions {
   /// SIFT alone: the weakest that is taken, see SiftExtremaOptions. Less gives more features of dim texture.
   double contrast = 0.02;
 
-  /// InputError for a name that does not exist, a pair that does not fit together, a count below 1.
+  /// Throws InputError for a name that does not exist, a pair that does not fit together, a number out of
+  /// range.
   void validate() const;
 };
+
+/// Visits detector, descriptor, features and contrast.
+void visit(FeatureOptions& options, ParameterVisitor& visitor);
 
 [[nodiscard]] const std::vector<std::string>& detector_names();
 [[nodiscard]] const std::vector<std::string>& descriptor_names();

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/core/parameter.h"
 #include "cairn/features/stereo_matching.h"
 
 namespace cairn {
@@ -56,31 +55,7 @@ void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, Obse
                                                            : none);
 }
 
-void validate_depth(const DepthNoise& depth, const StereoNoise& stereo) {
-  check_parameter(is_positive(depth.baseline), "depth.virtual_baseline", "metres above 0", depth.baseline);
-  check_parameter(is_positive(depth.sigma_disparity_px), "depth.sigma_disparity_px", "pixels above 0",
-                  depth.sigma_disparity_px);
-  check_parameter(depth.min_depth >= 0, "depth.min", "metres from 0", depth.min_depth);
-  check_parameter(depth.max_depth > depth.min_depth, "depth.max", "metres above depth.min", depth.max_depth);
-  check_parameter(is_positive(stereo.min_depth), "stereo.min_depth", "metres above 0", stereo.min_depth);
-  check_parameter(depth.jump_radius >= 0 && depth.jump_radius <= 100, "depth.jump_radius_px",
-                  "pixels from 0 to 100", depth.jump_radius);
-  check_parameter(is_positive(depth.jump_sigmas), "depth.jump_sigmas", "standard deviations above 0",
-                  depth.jump_sigmas);
-  check_parameter(stereo.min_disparity_sigmas >= 0, "stereo.min_disparity_sigmas",
-                  "standard deviations from 0", stereo.min_disparity_sigmas);
-  check_parameter(std::abs(stereo.min_correlation) <= 1, "stereo.min_correlation",
-                  "a correlation from -1 to 1", stereo.min_correlation);
-  check_parameter(stereo.sigma_floor_px >= 0, "stereo.sigma_floor_px", "pixels from 0",
-                  stereo.sigma_floor_px);
-}
-
 }  // namespace
-
-void ObserverOptions::validate() const {
-  features.validate();
-  validate_depth(depth_noise, stereo_noise);
-}
 
 Rig rig_of(const Calibration& calibration, const DepthNoise& noise) {
   const Camera& camera = calibration.camera;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cairn/core/parameter.h"
 #include "cairn/features/extractor.h"
 #include "cairn/map/observed_frame.h"
 #include "cairn/sequence/sequence.h"
@@ -39,9 +40,12 @@ struct ObserverOptions {
   DepthNoise depth_noise;
   StereoNoise stereo_noise;
 
-  /// InputError naming the parameter that is out of range.
+  /// Throws InputError naming the parameter that is out of range.
   void validate() const;
 };
+
+/// Visits the parameters of features, depth noise (depth.*) and stereo noise (stereo.*).
+void visit(ObserverOptions& options, ParameterVisitor& visitor);
 
 /// The rig that observations are made for: a stereo sequence's own, or the undistorted RGB-D camera with the
 /// depth noise's virtual baseline.

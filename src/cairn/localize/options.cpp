@@ -9,25 +9,64 @@
 
 namespace cairn {
 
+namespace {
+
+void visit(TrustOptions& trust, ParameterVisitor& visitor) {
+  visitor.parameter({"trust.min_inliers", at_least(4, "inliers"), "Fewest inliers of a good pose."},
+                    trust.min_inliers);
+  visitor.parameter(
+      {"trust.min_independent", from(0, "a number of inliers"),
+       "Fewest inliers that were matched by descriptor alone, not around a predicted position."},
+      trust.min_independent);
+  visitor.parameter({"trust.min_cells", from_to(1, 16, "cells"),
+                     "Fewest cells with an inlier, of 4 x 4 that the image is cut into."},
+                    trust.min_cells);
+  visitor.parameter({"trust.max_gdop", above(0, "metres per pixel"),
+                     "Largest geometric dilution of precision: error of the position for a pixel of noise in "
+                     "every observation."},
+                    trust.max_gdop);
+  visitor.parameter(
+      {"trust.max_position", above(0, "metres"), "Largest protection level of the position along an axis."},
+      trust.max_position);
+  visitor.parameter({"trust.max_angle_deg", above(0, "degrees"), "Largest protection level of the rotation."},
+                    trust.max_angle_deg);
+  visitor.parameter({"trust.max_acceleration", above(0, "m/s^2"),
+                     "Largest acceleration between poses in a row, of images with times."},
+                    trust.max_acceleration);
+  visitor.parameter({"trust.max_angular_acceleration", above(0, "rad/s^2"),
+                     "Largest angular acceleration between poses in a row, of images with times."},
+                    trust.max_angular_acceleration);
+}
+
+}  // namespace
+
+void visit(LocalizeOptions& options, ParameterVisitor& visitor) {
+  visitor.parameter({"keyframes", at_least(1, "keyframe"),
+                     "Keyframes that look most like the image, whose landmarks are looked for."},
+                    options.keyframes);
+  visitor.parameter({"more_keyframes", from(0, "a number of keyframes"),
+                     "Further keyframes tried if those lead to no good pose."},
+                    options.more_keyframes);
+  visitor.parameter({"nearby_keyframes", from(0, "a number of keyframes"),
+                     "Keyframes around a pose that was found, whose landmarks are looked for as well."},
+                    options.nearby_keyframes);
+  visitor.parameter({"max_ratio", above_up_to(0, 1, "a ratio"),
+                     "Largest distance of the nearest descriptor relative to that of the second nearest."},
+                    options.max_ratio);
+  visitor.parameter({"prior_radius_px", above(0, "pixels"),
+                     "Search radius around the position of a landmark by a prior pose."},
+                    options.prior_radius_px);
+  visitor.parameter({"radius_px", above(0, "pixels"),
+                     "Search radius around the position of a landmark by a pose found by matching."},
+                    options.radius_px);
+  visitor.parameter({"ransac_iterations", at_least(1, "iteration"),
+                     "Samples of three matches that are tried: 1000 are enough for 15 % inliers."},
+                    options.ransac_iterations);
+  visit(options.trust, visitor);
+}
+
 void LocalizeOptions::validate() const {
-  check_parameter(keyframes >= 1, "keyframes", "at least 1", keyframes);
-  check_parameter(more_keyframes >= 0, "more_keyframes", "at least 0", more_keyframes);
-  check_parameter(max_ratio > 0 && max_ratio <= 1, "max_ratio", "above 0, at most 1", max_ratio);
-  check_parameter(is_positive(prior_radius_px), "prior_radius_px", "above 0", prior_radius_px);
-  check_parameter(is_positive(radius_px), "radius_px", "above 0", radius_px);
-  check_parameter(nearby_keyframes >= 0, "nearby_keyframes", "at least 0", nearby_keyframes);
-  check_parameter(ransac_iterations >= 1, "ransac_iterations", "at least 1", ransac_iterations);
-  check_parameter(trust.min_inliers >= 4, "trust.min_inliers", "at least 4", trust.min_inliers);
-  check_parameter(trust.min_independent >= 0, "trust.min_independent", "at least 0", trust.min_independent);
-  check_parameter(trust.min_cells >= 1 && trust.min_cells <= 16, "trust.min_cells", "1 to 16",
-                  trust.min_cells);
-  check_parameter(is_positive(trust.max_gdop), "trust.max_gdop", "above 0", trust.max_gdop);
-  check_parameter(is_positive(trust.max_position), "trust.max_position", "above 0", trust.max_position);
-  check_parameter(is_positive(trust.max_angle_deg), "trust.max_angle_deg", "above 0", trust.max_angle_deg);
-  check_parameter(is_positive(trust.max_acceleration), "trust.max_acceleration", "above 0",
-                  trust.max_acceleration);
-  check_parameter(is_positive(trust.max_angular_acceleration), "trust.max_angular_acceleration", "above 0",
-                  trust.max_angular_acceleration);
+  check_ranges(*this);
 }
 
 ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "cairn/core/parameter.h"
 #include "cairn/frontend/observer.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/map/map_info.h"
@@ -34,9 +35,12 @@ struct LocalizeOptions {
   TrustOptions trust;
   std::uint64_t seed = 1;
 
-  /// InputError naming the parameter that is out of range.
+  /// Throws InputError naming the parameter that is out of range.
   void validate() const;
 };
+
+/// Visits the parameters of localisation, in the order of --help.
+void visit(LocalizeOptions& options, ParameterVisitor& visitor);
 
 /// The camera that an image to be localised was seen by, as the image is observed: after camera_for_queries.
 struct QueryCamera {

@@ -54,21 +54,6 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   fail_unknown_format(folder);
 }
 
-void check_parameters(const SequenceOptions& options) {
-  const auto check = [](const std::optional<double>& value, const char* name) {
-    if (!value || *value > 0) return;
-    throw InputError({name, 0, "a number above 0", fmt::format("{}", *value), "Mend the value."});
-  };
-  check(options.camera_parameters.fx, "camera.fx");
-  check(options.camera_parameters.fy, "camera.fy");
-  check(options.camera_parameters.scale, "camera.scale");
-  constexpr double kMaxGap = 1e6;
-  if (!(options.max_stamp_gap_s >= 0 && options.max_stamp_gap_s <= kMaxGap)) {
-    throw InputError({"max_stamp_gap_s", 0, "seconds from 0 to 1000000",
-                      fmt::format("{}", options.max_stamp_gap_s), "Mend the value."});
-  }
-}
-
 /// Parameters alone make a calibration, too: without distortion, of the images' size.
 void apply_parameters(const CameraParameters& given, Sequence& sequence) {
   Calibration& calibration = sequence.calibration;
@@ -175,7 +160,7 @@ Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
 }  // namespace
 
 Sequence open_sequence(const fs::path& folder, const SequenceOptions& options) {
-  check_parameters(options);
+  check_ranges(options);
   try {
     return open_checked(folder, options);
   } catch (const fs::filesystem_error& error) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cairn/core/id.h"
+#include "cairn/core/parameter.h"
 #include "cairn/image/image.h"
 #include "cairn/sequence/calibration.h"
 #include "cairn/sequence/frame_range.h"
@@ -72,6 +73,9 @@ struct SequenceOptions {
   std::optional<FrameRange> frames;   ///< only these
   std::optional<FrameRange> without;  ///< not these
 };
+
+/// Visits the parameters by which a sequence is read: camera.*, the folders and numbers of its files.
+void visit(SequenceOptions& options, ParameterVisitor& visitor);
 
 /// Finds out the format and lists the frames. InputError for whatever is wrong.
 [[nodiscard]] Sequence open_sequence(const std::filesystem::path& folder,

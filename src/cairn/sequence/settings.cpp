@@ -5,11 +5,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <limits>
+#include <optional>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/core/text.h"
 
 namespace cairn {
 namespace {
@@ -87,45 +86,11 @@ std::vector<Setting> read_yaml(const std::string& text, const std::string& sourc
   return settings;
 }
 
-bool parse_bool(std::string text, bool& value) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const auto is = [&](std::initializer_list<const char*> words) {
-    return std::find(words.begin(), words.end(), text) != words.end();
-  };
-  const bool yes = is({"yes", "true", "on", "1"});
-  if (!yes && !is({"no", "false", "off", "0"})) return false;
-  value = yes;
-  return true;
-}
-
-bool parse_int(const std::string& text, int& value) {
-  std::int64_t wide = 0;
-  if (!parse_integer(text, wide) || wide < std::numeric_limits<int>::min() ||
-      wide > std::numeric_limits<int>::max())
-    return false;
-  value = static_cast<int>(wide);
-  return true;
-}
-
-/// `parse` into a copy, so that the field keeps its value where the text is of another kind.
-template <class T, class Field, class Parse>
-bool assign(const std::string& text, Field& field, Parse parse) {
-  T value{};
-  if (!parse(text, value)) return false;
-  field = value;
-  return true;
-}
-
-std::string in_quotes(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
-  }
-  return fmt::format("\"{}\"", result);
-}
-
 }  // namespace
+
+std::string place_of(const Setting& setting) {
+  return setting.line > 0 ? fmt::format("{}:{}", setting.source, setting.line) : setting.source;
+}
 
 std::vector<Setting> read_settings(const std::filesystem::path& path) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before UTF-8
@@ -140,65 +105,6 @@ Setting parse_setting(const std::string& text, const std::string& option) {
     throw InputError(
         {option, 0, "key=value", fmt::format("'{}'", text), "For example --set min_inliers=30."});
   return *setting;
-}
-
-void SettingTable::bind(const std::string& name, double& field) {
-  entries_.push_back({name, "a number",
-                      [&field](const std::string& text) { return assign<double>(text, field, parse_number); },
-                      [&field] { return std::optional(fmt::format("{}", field)); }});
-}
-
-void SettingTable::bind(const std::string& name, int& field) {
-  entries_.push_back({name, "a whole number",
-                      [&field](const std::string& text) { return assign<int>(text, field, parse_int); },
-                      [&field] { return std::optional(fmt::format("{}", field)); }});
-}
-
-void SettingTable::bind(const std::string& name, bool& field) {
-  entries_.push_back({name, "yes or no",
-                      [&field](const std::string& text) { return parse_bool(text, field); },
-                      [&field] { return std::optional(std::string(field ? "yes" : "no")); }});
-}
-
-void SettingTable::bind(const std::string& name, std::string& field) {
-  entries_.push_back({name, "a text", [&field](const std::string& text) { return field = text, true; },
-                      [&field] { return field.empty() ? std::nullopt : std::optional(in_quotes(field)); }});
-}
-
-void SettingTable::bind(const std::string& name, std::optional<double>& field) {
-  entries_.push_back({name, "a number",
-                      [&field](const std::string& text) { return assign<double>(text, field, parse_number); },
-                      [&field] { return field ? std::optional(fmt::format("{}", *field)) : std::nullopt; }});
-}
-
-void SettingTable::bind(const std::string& name, std::optional<std::int64_t>& field) {
-  entries_.push_back(
-      {name, "a whole number",
-       [&field](const std::string& text) { return assign<std::int64_t>(text, field, parse_integer); },
-       [&field] { return field ? std::optional(fmt::format("{}", *field)) : std::nullopt; }});
-}
-
-void SettingTable::apply(const Setting& setting) const {
-  const auto entry =
-      std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == setting.key; });
-  if (entry == entries_.end()) {
-    std::vector<std::string> names;
-    for (const Entry& known : entries_) names.push_back(known.name);
-    throw InputError({setting.source, setting.line, "the name of a parameter",
-                      fmt::format("'{}'", setting.key),
-                      fmt::format("Did you mean '{}'?", nearest_name(setting.key, names))});
-  }
-  if (entry->set(setting.value)) return;
-  throw InputError({setting.source, setting.line, fmt::format("{} for '{}'", entry->expected, setting.key),
-                    fmt::format("'{}'", setting.value), "Mend the value."});
-}
-
-std::string SettingTable::format() const {
-  std::string text;
-  for (const Entry& entry : entries_) {
-    if (const auto value = entry.value()) text += fmt::format("{}: {}\n", entry.name, *value);
-  }
-  return text;
 }
 
 }  // namespace cairn

@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "cairn/core/error.h"
+#include "cairn/sequence/setting_table.h"
 #include "cairn/sequence/test_sequence.h"
 
 namespace cairn {
@@ -17,25 +23,36 @@ struct Fields {
   std::string detector = "ORB";
   std::optional<double> fx;
   std::optional<std::int64_t> start;
-
-  SettingTable table() {
-    SettingTable table;
-    table.bind("threshold", threshold);
-    table.bind("count", count);
-    table.bind("check", check);
-    table.bind("detector", detector);
-    table.bind("camera.fx", fx);
-    table.bind("start_index", start);
-    return table;
-  }
 };
+
+void visit(Fields& fields, ParameterVisitor& visitor) {
+  visitor.parameter({"threshold", above(0, "pixels"), "A limit.", "max_norm"}, fields.threshold);
+  visitor.parameter({"count", at_least(1, "feature"), "How many."}, fields.count);
+  visitor.parameter({"check", {}, "Whether to look.", "check_loop"}, fields.check);
+  visitor.retired({"mapping.old", "no", "it improved nothing"});
+  visitor.retired({"mapping.size", "3", "nothing has a size"});
+  visitor.parameter({"detector", any("a name"), "Which."}, fields.detector);
+  visitor.parameter({"camera.fx", above(0, "pixels"), "Focal length."}, fields.fx);
+  visitor.parameter({"start_index", any("a file number"), "Where to begin."}, fields.start);
+}
+
+SettingTable table_of(Fields& fields) {
+  SettingTable table;
+  visit(fields, table);
+  return table;
+}
+
+/// Returns the warning of a setting given by --set.
+std::string warning_of(Fields& fields, const std::string& key, const std::string& value) {
+  return table_of(fields).apply({key, value, "--set", 0});
+}
 
 class SettingsTest : public testing::Test, protected TestFolder {
  protected:
   [[nodiscard]] Fields read(const std::string& text) const {
     Fields fields;
-    const SettingTable table = fields.table();
-    for (const Setting& setting : read_settings(write("settings", text))) table.apply(setting);
+    const SettingTable table = table_of(fields);
+    for (const Setting& setting : read_settings(write("settings", text))) (void)table.apply(setting);
     return fields;
   }
 };
@@ -151,9 +168,9 @@ TEST(ParseSetting, splits_at_the_first_equals_sign) {
 
 TEST(SettingTable, a_refused_value_changes_nothing) {
   Fields fields;
-  const SettingTable table = fields.table();
+  const SettingTable table = table_of(fields);
   for (const char* key : {"threshold", "count", "check", "camera.fx", "start_index"})
-    EXPECT_THROW(table.apply({key, "7x", "--set", 0}), InputError);
+    EXPECT_THROW((void)table.apply({key, "7x", "--set", 0}), InputError);
   EXPECT_EQ(fields.threshold, 1.5);
   EXPECT_EQ(fields.count, 500);
   EXPECT_TRUE(fields.check);
@@ -163,14 +180,71 @@ TEST(SettingTable, a_refused_value_changes_nothing) {
 
 TEST_F(SettingsTest, format_is_read_back) {
   Fields fields{1.0 / 3.0, std::numeric_limits<int>::min(), false, R"(C:\a "b" #c = d: e)", -1e-300, 12};
-  const Fields back = read(fields.table().format());
+  const Fields back = read(table_of(fields).format());
   EXPECT_EQ(back.threshold, fields.threshold);
   EXPECT_EQ(back.count, fields.count);
   EXPECT_EQ(back.check, fields.check);
   EXPECT_EQ(back.detector, fields.detector);
   EXPECT_EQ(back.fx, fields.fx);
   EXPECT_EQ(back.start, fields.start);
-  EXPECT_FALSE(read(Fields().table().format()).fx);
+  Fields defaults;
+  EXPECT_FALSE(read(table_of(defaults).format()).fx);
+}
+
+TEST(SettingTable, a_former_name_sets_the_field_with_a_warning) {
+  Fields fields;
+  EXPECT_EQ(warning_of(fields, "threshold", "4"), "");
+  EXPECT_EQ(warning_of(fields, "max_norm", "2"),
+            "--set: 'max_norm' is now called 'threshold'; both are accepted.");
+  EXPECT_EQ(fields.threshold, 2);
+  EXPECT_EQ(table_of(fields).apply({"check_loop", "no", "p.yaml", 3}),
+            "p.yaml:3: 'check_loop' is now called 'check'; both are accepted.");
+  EXPECT_FALSE(fields.check);
+  EXPECT_EQ(table_of(fields).format(), "threshold: 2\ncount: 500\ncheck: no\ndetector: \"ORB\"\n");
+}
+
+TEST_F(SettingsTest, the_later_one_of_both_names_counts) {
+  EXPECT_EQ(read("max_norm: 2\nthreshold: 3\n").threshold, 3);
+  EXPECT_EQ(read("threshold: 3\nmax_norm: 2\n").threshold, 2);
+}
+
+TEST(SettingTable, a_misspelt_former_name_is_answered_with_the_present_one) {
+  Fields fields;
+  EXPECT_EQ(message_of([&] { return warning_of(fields, "max_nrm", "2"); }),
+            "--set: expected the name of a parameter, found 'max_nrm'.\n  Did you mean 'threshold'?");
+}
+
+TEST(SettingTable, a_retired_parameter_is_accepted_if_it_changes_nothing) {
+  Fields fields;
+  for (const char* no : {"no", "off", "False", "0"})
+    EXPECT_EQ(warning_of(fields, "mapping.old", no),
+              "--set: 'mapping.old' was removed, as it improved nothing; '" + std::string(no) +
+                  "' is accepted and changes nothing.");
+  EXPECT_NE(warning_of(fields, "mapping.size", "3"), "");
+  for (const char* value : {"yes", "1", "maybe", ""})
+    EXPECT_EQ(message_of([&] { return warning_of(fields, "mapping.old", value); }),
+              "--set: expected 'no' for 'mapping.old', which was removed, found '" + std::string(value) +
+                  "'.\n  Leave it out: it was removed, as it improved nothing.");
+  EXPECT_THROW((void)warning_of(fields, "mapping.size", "4"), InputError);
+  EXPECT_EQ(table_of(fields).format().find("mapping"), std::string::npos);
+}
+
+TEST(SettingTable, rows_say_what_people_need_to_know) {
+  Fields fields;
+  fields.count = 7;
+  const std::vector<ParameterRow> rows = table_of(fields).rows();
+  ASSERT_EQ(rows.size(), 6U);
+  const auto expect_row = [](const ParameterRow& row, const ParameterRow& expected) {
+    EXPECT_EQ(row.name, expected.name);
+    EXPECT_EQ(row.value, expected.value);
+    EXPECT_EQ(row.accepted, expected.accepted);
+    EXPECT_EQ(row.meaning, expected.meaning);
+  };
+  expect_row(rows[0], {"threshold", "1.5", "pixels above 0", "A limit."});
+  expect_row(rows[1], {"count", "7", "at least 1 feature", "How many."});
+  expect_row(rows[2], {"check", "yes", "yes or no", "Whether to look."});
+  expect_row(rows[3], {"detector", "ORB", "a name", "Which."});
+  expect_row(rows[4], {"camera.fx", "", "pixels above 0", "Focal length."});
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ Mapper::Mapper(const SlamOptions& options, const Executor& executor, IndexedMap&
 Mapper::~Mapper() = default;
 
 std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
-  if (points_with_depth(frame) < options_.min_good_match) return std::nullopt;
+  if (points_with_depth(frame) < options_.min_matches) return std::nullopt;
   if (!map_.keyframes().empty() && ++good_lost_frames_ < options_.lost_frames) return std::nullopt;
   good_lost_frames_ = 0;
   (void)take_over();
@@ -67,7 +67,6 @@ KeyframeId Mapper::insert(const ObservedFrame& frame, const TrackedFrame& tracke
   const KeyframeId id = add_keyframe(indexed_, frame, tracked, parent, map_.part_of(parent));
   odometry_.push_back({parent_from_new, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
-  if (options_.mapping.triangulate) (void)add_landmarks_by_triangulation(map_, id);
   (void)join_with_neighbours(map_, id, options_);
   times_.mapping.push_back(watch.seconds());
   return id;

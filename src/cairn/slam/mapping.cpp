@@ -2,53 +2,11 @@
 #include "cairn/slam/mapping.h"
 
 #include <algorithm>
-#include <optional>
 
-#include "cairn/geometry/triangulation.h"
 #include "cairn/slam/local_map.h"
 
 namespace cairn {
 namespace {
-
-constexpr double kMaxRatio = 0.8;  // Lowe 2004, sec. 7.1: along a line much looks alike
-
-/// The features of a keyframe that have neither depth nor landmark.
-struct OpenFeatures {
-  std::vector<std::int32_t> indices;
-  Features features;
-};
-
-OpenFeatures open_features(const Keyframe& keyframe) {
-  const Features& all = keyframe.observed.features;
-  OpenFeatures open;
-  std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-    const bool has_depth = keyframe.observed.points_in_camera[i].allFinite();
-    if (has_depth || keyframe.landmarks[i].valid()) continue;
-    rows.push_back(i);
-    open.indices.push_back(static_cast<std::int32_t>(i));
-    open.features.keypoints.push_back(all.keypoints[i]);
-  }
-  open.features.descriptors = select(all.descriptors, rows);
-  return open;
-}
-
-/// x/z and y/z of what a feature shows.
-Eigen::Vector2d ray_of(const Rig& rig, const Observation& seen) {
-  return {(seen.u - rig.cx) / rig.fx, (seen.v - rig.cy) / rig.fy};
-}
-
-/// The point that two features show, in the first one's camera; nothing where its depth stays open or a pixel
-/// does not agree.
-std::optional<Eigen::Vector3d> meet(const Rig& rig, const Rigid3& b_from_a, const Observation& in_a,
-                                    const Observation& in_b) {
-  constexpr double kMinAngle = 0.05;  // radians: a depth to some percent at two pixels
-  const auto point = triangulate(b_from_a, ray_of(rig, in_a), ray_of(rig, in_b), kMinAngle);
-  if (!point || squared_error(rig, point->point_in_a, in_a) > squared_error_limit(in_a) ||
-      squared_error(rig, b_from_a * point->point_in_a, in_b) > squared_error_limit(in_b))
-    return std::nullopt;
-  return point->point_in_a;
-}
 
 /// The landmark that has more sightings stays; of equal ones the older.
 void merge_two(Map& map, LandmarkId a, LandmarkId b) {
@@ -132,32 +90,6 @@ int add_landmarks_by_depth(Map& map, KeyframeId id) {
     if (map[id].landmarks[i].valid() || !point.allFinite()) continue;
     map.add_landmark(map[id].world_from_camera * point, {id, static_cast<std::int32_t>(i)});
     ++added;
-  }
-  return added;
-}
-
-int add_landmarks_by_triangulation(Map& map, KeyframeId id) {
-  constexpr std::size_t kNeighbours = 3;
-  const Rig& rig = map.rig();
-  const Camera pinhole{CameraModel::pinhole, 0, 0, rig.fx, rig.fy, rig.cx, rig.cy, {}};
-  int added = 0;
-  for (const KeyframeId neighbour : neighbours_of(map, id, kNeighbours)) {
-    const OpenFeatures here = open_features(map[id]), there = open_features(map[neighbour]);
-    EpipolarMatchOptions options;
-    options.matching = {descriptor_limit(map[id].observed.features.descriptors), kMaxRatio, true};
-    const Rigid3 there_from_here = map[neighbour].world_from_camera.inverse() * map[id].world_from_camera;
-    for (const Match& match : match_along_epipolar_lines({pinhole, here.features}, {pinhole, there.features},
-                                                         there_from_here, options)) {
-      const std::int32_t a = here.indices[static_cast<std::size_t>(match.query)],
-                         b = there.indices[static_cast<std::size_t>(match.train)];
-      const auto point =
-          meet(rig, there_from_here, map[id].observed.observations[static_cast<std::size_t>(a)],
-               map[neighbour].observed.observations[static_cast<std::size_t>(b)]);
-      if (!point) continue;
-      const LandmarkId landmark = map.add_landmark(map[id].world_from_camera * *point, {id, a});
-      map.add_sighting(landmark, {neighbour, b});
-      ++added;
-    }
   }
   return added;
 }

@@ -15,10 +15,6 @@ KeyframeId add_keyframe(IndexedMap& indexed, const ObservedFrame& observed, cons
 /// Each feature with depth that shows no landmark becomes one. Returns how many.
 int add_landmarks_by_depth(Map& map, KeyframeId keyframe);
 
-/// Features without depth and without landmark that two keyframes show become landmarks where their rays
-/// meet: matched with those of the keyframe's best neighbours along the epipolar lines. Returns how many.
-int add_landmarks_by_triangulation(Map& map, KeyframeId keyframe);
-
 /// Looks for the landmarks of the keyframe in its neighbours, and for theirs in it: what is found becomes a
 /// sighting, and two landmarks at one feature become one. Returns how many were joined or found.
 int join_with_neighbours(Map& map, KeyframeId keyframe, const SlamOptions& options);

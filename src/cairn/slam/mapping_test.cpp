@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "cairn/slam/test_map.h"
 
@@ -39,43 +38,6 @@ TEST(AddLandmarksByDepth, takes_features_with_depth_that_show_none) {
   EXPECT_FALSE(map[id].landmarks[0].valid());
   EXPECT_EQ(map[id].landmarks[1], before);
   EXPECT_EQ(map[map[id].landmarks[2]].point_in_world, Eigen::Vector3d(1, 0, 2));
-}
-
-/// Two keyframes see the same; in both every second feature has lost its depth, and its landmark.
-TEST(AddLandmarksByTriangulation, finds_points_where_two_rays_meet) {
-  test::MapMaker maker(test::points_ahead(400, 3));
-  const KeyframeId ids[] = {maker.add({}), maker.add(test::aside(0.4))};
-  Map map(test::kRig, "ORB");
-  for (const KeyframeId id : ids) {
-    ObservedFrame observed = maker.map[id].observed;
-    for (std::size_t i = 0; i < observed.observations.size(); ++i) {
-      if (maker.map[id].landmarks[i].value % 2 != 0) continue;
-      observed.observations[i].d = std::numeric_limits<double>::quiet_NaN();
-      observed.points_in_camera[i].setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-    (void)map.add_keyframe(std::move(observed), maker.map[id].world_from_camera, {id.value - 1}, 0);
-  }
-  (void)add_landmarks_by_depth(map, {0});
-  for (std::size_t i = 0; i < map[KeyframeId{0}].landmarks.size(); ++i) {  // what both show with depth
-    const LandmarkId landmark = map[KeyframeId{0}].landmarks[i],
-                     known = maker.map[KeyframeId{0}].landmarks[i];
-    const auto& there = maker.map[KeyframeId{1}].landmarks;
-    const auto again = std::find(there.begin(), there.end(), known);
-    if (landmark.valid() && again != there.end())
-      map.add_sighting(landmark, {{1}, static_cast<std::int32_t>(again - there.begin())});
-  }
-  const std::size_t before = map.landmarks().size();
-  const int added = add_landmarks_by_triangulation(map, {1});
-  EXPECT_GT(added, 50);
-  ASSERT_EQ(map.landmarks().size(), before + static_cast<std::size_t>(added));
-  for (std::size_t l = before; l < map.landmarks().size(); ++l) {
-    const Landmark& landmark = map.landmarks()[l];
-    ASSERT_EQ(landmark.sightings.size(), 2U);
-    const auto feature = static_cast<std::size_t>(landmark.sightings.front().feature);
-    const Eigen::Vector3d truth = maker.map[KeyframeId{0}].observed.points_in_camera[feature];
-    EXPECT_LT((landmark.point_in_world - truth).norm(), 0.1 * truth.z());
-  }
-  EXPECT_EQ(add_landmarks_by_triangulation(map, {1}), 0) << "all are landmarks now";
 }
 
 /// Two keyframes that see nearly the same; the second knows every fifth of the first one's landmarks again

@@ -69,11 +69,11 @@ std::vector<Eigen::Vector3d> points_of(const Map& map, KeyframeId id) {
 Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const ObservedFrame& current,
                        const SlamOptions& options) {
   const auto all = match_mutual(current.features.descriptors, reference.observed.features.descriptors);
-  const auto good = filter_by_distance(all, options.good_match_threshold, kDistanceFloor);
+  const auto good = filter_by_distance(all, options.max_distance_factor, kDistanceFloor);
   const Pairs pairs = pairs_of(reference, current, good);
   Motion motion;
   motion.matches = static_cast<int>(pairs.points_in_reference.size());
-  if (motion.matches < options.min_good_match) return motion;
+  if (motion.matches < options.min_matches) return motion;
   RansacOptions ransac;
   ransac.seed = seed_of(options, reference.observed, current);
   const PnpResult rough = solve_pnp_ransac(rig, pairs.points_in_reference, pairs.seen_in_current, ransac);
@@ -108,7 +108,7 @@ const char* to_string(KeyframeDecision decision) {
 
 KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps) {
   if (!motion.found) return KeyframeDecision::not_matched;
-  if (motion.norm >= steps * options.max_norm) return KeyframeDecision::too_far;
+  if (motion.norm >= steps * options.max_motion) return KeyframeDecision::too_far;
   if (motion.norm <= options.keyframe_threshold) return KeyframeDecision::too_close;
   return KeyframeDecision::keyframe;
 }
@@ -116,7 +116,7 @@ KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double
 bool is_plausible_loop(const Motion& motion, const SlamOptions& options) {
   return motion.found && motion.inliers >= options.loop_min_inliers &&
          motion.inliers >= options.loop_min_inlier_share * motion.matches &&
-         motion.norm < options.max_norm_lp;
+         motion.norm < options.max_loop_motion;
 }
 
 }  // namespace cairn

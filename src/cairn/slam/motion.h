@@ -39,7 +39,7 @@ struct ReferenceView {
 /// What a frame's motion against a keyframe means.
 enum class KeyframeDecision {
   not_matched,  ///< no motion found
-  too_far,      ///< max_norm or more: probably wrong, and refused
+  too_far,      ///< max_motion or more: probably wrong, and refused
   too_close,    ///< tracked, but not worth a keyframe
   keyframe,     ///< tracked, and a keyframe
 };
@@ -50,7 +50,7 @@ enum class KeyframeDecision {
 [[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps = 1);
 /// Tells whether a motion may be believed between frames that need not be neighbours, as those of a loop or a
 /// frame after being lost: loop_min_inliers and loop_min_inlier_share are reached, and the motion is below
-/// max_norm_lp.
+/// max_loop_motion.
 [[nodiscard]] bool is_plausible_loop(const Motion& motion, const SlamOptions& options);
 
 }  // namespace cairn

@@ -15,7 +15,7 @@ double steps_between(std::int64_t from_ns, std::int64_t to_ns, const SlamOptions
 
 bool is_plausible_motion(const Rigid3& motion, std::int64_t from_ns, std::int64_t to_ns,
                          const SlamOptions& options) {
-  return motion_norm(motion) < options.max_norm * steps_between(from_ns, to_ns, options);
+  return motion_norm(motion) < options.max_motion * steps_between(from_ns, to_ns, options);
 }
 
 void KnownPoses::remember(const Map& map, KeyframeId reference, const Rigid3& reference_from_frame,

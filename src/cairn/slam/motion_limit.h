@@ -9,11 +9,11 @@
 
 namespace cairn {
 
-/// Frame periods between two stamps, at least 1: how many times max_norm the camera may have moved meanwhile.
-/// Where the period is not known (0), 1.
+/// Frame periods between two stamps, at least 1: how many times max_motion the camera may have moved
+/// meanwhile. Where the period is not known (0), 1.
 [[nodiscard]] double steps_between(std::int64_t from_ns, std::int64_t to_ns, const SlamOptions& options);
 
-/// Whether a camera may have moved so far between two stamps: |rotation| + |translation| below max_norm for
+/// Whether a camera may have moved so far between two stamps: |rotation| + |translation| below max_motion for
 /// each frame period between them, so that frames which are missing or were refused count as well.
 [[nodiscard]] bool is_plausible_motion(const Rigid3& motion, std::int64_t from_ns, std::int64_t to_ns,
                                        const SlamOptions& options);

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-SlamOptions limit(double max_norm, double frame_period_s) {
+SlamOptions limit(double max_motion, double frame_period_s) {
   SlamOptions options;
-  options.max_norm = max_norm;
+  options.max_motion = max_motion;
   options.frame_period_s = frame_period_s;
   return options;
 }

@@ -67,7 +67,7 @@ TEST(EstimateMotion, finds_the_motion) {
 
 TEST(EstimateMotion, finds_none_with_few_matches_or_without_depth) {
   const SlamOptions options;
-  const Views few = make_views(small_motion(), static_cast<std::size_t>(options.min_good_match) - 1, 2);
+  const Views few = make_views(small_motion(), static_cast<std::size_t>(options.min_matches) - 1, 2);
   EXPECT_FALSE(estimate_motion(kRig, few.reference_view(), few.current, options).found);
   Views flat = make_views(small_motion(), 300, 3);
   for (auto& point : flat.reference.points_in_camera)
@@ -113,7 +113,7 @@ Motion motion_of(double norm, int matches, int inliers) {
 TEST(KeyframeDecision, has_four_outcomes) {
   SlamOptions options;
   options.keyframe_threshold = 0.1;
-  options.max_norm = 0.3;
+  options.max_motion = 0.3;
   EXPECT_EQ(decide(Motion{}, options), KeyframeDecision::not_matched);
   EXPECT_EQ(decide(motion_of(0.1, 100, 90), options), KeyframeDecision::too_close);
   EXPECT_EQ(decide(motion_of(0.11, 100, 90), options), KeyframeDecision::keyframe);
@@ -122,8 +122,8 @@ TEST(KeyframeDecision, has_four_outcomes) {
 
 TEST(PlausibleLoop, needs_more_evidence_and_may_be_farther) {
   SlamOptions options;
-  options.max_norm = 0.3;
-  options.max_norm_lp = 5;
+  options.max_motion = 0.3;
+  options.max_loop_motion = 5;
   EXPECT_TRUE(is_plausible_loop(motion_of(2, 100, 90), options));
   EXPECT_TRUE(is_plausible_loop(motion_of(0.01, 100, 90), options));  // no keyframe is asked for
   EXPECT_FALSE(is_plausible_loop(motion_of(5, 100, 90), options));

@@ -39,7 +39,7 @@ TEST(VerifyPlace, refuses_another_place_and_one_too_far_away) {
   test::MapMaker maker = one_keyframe();
   const test::View seen = maker.world.see(test::aside(0.2), 1);
   SlamOptions near;
-  near.max_norm_lp = 0.1;
+  near.max_loop_motion = 0.1;
   EXPECT_FALSE(verify_place(maker.map, kReference, seen.observed, near));
   for (test::WorldPoint& point : maker.world.points) point.look += 1000;
   const test::View other = maker.world.see(test::aside(0.2), 2);

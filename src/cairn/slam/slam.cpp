@@ -105,7 +105,7 @@ class SlamPipeline {
 
   void close_loops(KeyframeId keyframe) {
     const Stopwatch watch;
-    if (options_.check_loop_closure && !options_.odometry) (void)closer_.close(keyframe);
+    if (options_.close_loops && !options_.odometry) (void)closer_.close(keyframe);
     result_.times.loops.push_back(watch.seconds());
   }
 
@@ -139,17 +139,17 @@ SlamOptions with_frame_period(const SlamOptions& given, const Sequence& sequence
   return options;
 }
 
-/// Frames that would have been tracked, were it not for max_norm.
+/// Frames that would have been tracked, were it not for max_motion.
 void warn_of_refused(const SlamResult& result, const SlamOptions& options, Progress& progress) {
   const auto refused = std::count_if(result.frames.begin(), result.frames.end(), [](const FrameTrack& track) {
     return !track.tracked() && track.decision == KeyframeDecision::too_far;
   });
   if (refused == 0) return;
   progress.warn(
-      fmt::format("{} of {} frames moved further than max_norm = {:g} (rad + m) allows between neighbours "
+      fmt::format("{} of {} frames moved further than max_motion = {:g} (rad + m) allows between neighbours "
                   "and were refused. Give "
-                  "a larger max_norm where the camera is that fast.",
-                  refused, result.frames.size(), options.max_norm));
+                  "a larger max_motion where the camera is that fast.",
+                  refused, result.frames.size(), options.max_motion));
 }
 
 MapHeader map_header(const Sequence& sequence, const SlamOptions& options) {

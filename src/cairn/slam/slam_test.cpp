@@ -105,18 +105,18 @@ TEST_F(SlamTest, skips_the_first_frames_where_they_cannot_be_decoded) {
   EXPECT_EQ(result.trajectory().front().stamp_ns, sequence.frames[2].stamp_ns);
 }
 
-TEST_F(SlamTest, frames_that_move_by_max_norm_or_more_are_refused) {
+TEST_F(SlamTest, frames_that_move_by_max_motion_or_more_are_refused) {
   struct Listener : Progress {
     void warn(const std::string& message) override { heard += message; }
     std::string heard;
   } listener;
   SlamOptions options;
-  options.max_norm = 0.004;  // 0.4 m/s at 30 Hz are 0.013 m
+  options.max_motion = 0.004;  // 0.4 m/s at 30 Hz are 0.013 m
   options.keyframe_threshold = 0.001;
   const SlamResult result = run_slam(open_sequence(folder_), options, Executor(2), listener);
   EXPECT_LE(result.trajectory().size(), 1U);
   EXPECT_EQ(result.frames[1].decision, KeyframeDecision::too_far);
-  EXPECT_NE(listener.heard.find("max_norm = 0.004"), std::string::npos) << listener.heard;
+  EXPECT_NE(listener.heard.find("max_motion = 0.004"), std::string::npos) << listener.heard;
 }
 
 TEST_F(SlamTest, refuses_a_sequence_of_which_no_frame_can_be_decoded) {
@@ -139,13 +139,13 @@ TEST_F(SlamTest, keeps_what_was_done_when_the_user_stops) {
 
 TEST_F(SlamTest, options_out_of_range_are_named) {
   SlamOptions options;
-  options.max_norm = -1;
+  options.max_motion = -1;
   try {
     options.validate();
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(),
-                 "max_norm: expected rad + m above 0, found -1.\n  Leave it out for the default.");
+                 "max_motion: expected rad + m above 0, found -1.\n  Leave it out for the default.");
   }
 }
 

@@ -54,7 +54,7 @@ std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) c
   for (const double widening : {1.0, 3.0}) {
     const auto found = find_shown_before(view, widening * options_.tracking.motion_radius_px);
     TrackedFrame current;
-    const bool enough = static_cast<int>(found.size()) >= options_.min_good_match;
+    const bool enough = static_cast<int>(found.size()) >= options_.min_matches;
     if (enough && solve_pose(view, found, options_.min_inliers, current) &&
         2 * current.inliers >= current.matches)
       return current;
@@ -114,7 +114,7 @@ std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, Fram
 
 bool Tracker::is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const {
   const Rigid3 motion = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
-  const bool is_weak = current.inliers < options_.weak_tracking;
+  const bool is_weak = current.inliers < options_.weak_inliers;
   // a view that is poor is soon lost; but a camera at rest needs no keyframes, however poor the view
   if (is_weak && motion_norm(motion) > kWeakShare * options_.keyframe_threshold) return true;
   if (motion_norm(motion) <= options_.keyframe_threshold) return false;

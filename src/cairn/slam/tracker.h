@@ -27,8 +27,8 @@ struct FrameTrack {
 
 /// Follows the camera through the map: predicts the pose by the last motion, finds in the image what the last
 /// frame showed, then what the map around it holds, and solves for the pose of the camera. Falls back to
-/// matching without prediction, then to relocalisation. A pose too far from the last one known (max_norm) is
-/// refused, whichever of them found it. It reads the map and never writes it. Deterministic.
+/// matching without prediction, then to relocalisation. A pose too far from the last one known (max_motion)
+/// is refused, whichever of them found it. It reads the map and never writes it. Deterministic.
 class Tracker {
  public:
   Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed);

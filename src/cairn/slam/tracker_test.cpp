@@ -60,7 +60,7 @@ TEST_F(TrackerTest, a_keyframe_is_due_when_the_view_has_changed) {
 }
 
 TEST_F(TrackerTest, a_keyframe_is_due_when_little_is_left_to_follow) {
-  options_.weak_tracking = 100000;
+  options_.weak_inliers = 100000;
   EXPECT_EQ(track(test::aside(0.01)).decision, KeyframeDecision::too_close) << "nearly at rest";
   EXPECT_EQ(track(test::aside(0.05)).decision, KeyframeDecision::keyframe);
 }
@@ -80,8 +80,8 @@ TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
   EXPECT_FALSE(track(test::aside(0.45)).relocalized);
 }
 
-TEST_F(TrackerTest, a_motion_of_max_norm_or_more_is_refused_by_whatever_way_it_is_found) {
-  options_.max_norm = 0.15;
+TEST_F(TrackerTest, a_motion_of_max_motion_or_more_is_refused_by_whatever_way_it_is_found) {
+  options_.max_motion = 0.15;
   ASSERT_TRUE(track(test::aside(0.1)).tracked());
   const FrameTrack far = track(test::aside(0.3));  // by the last motion, by the map, and by relocalisation
   EXPECT_FALSE(far.tracked());
@@ -93,7 +93,7 @@ TEST_F(TrackerTest, a_motion_of_max_norm_or_more_is_refused_by_whatever_way_it_i
 }
 
 TEST_F(TrackerTest, a_refused_frame_counts_as_a_step) {
-  options_.max_norm = 0.15;
+  options_.max_motion = 0.15;
   options_.frame_period_s = 0.033;
   ASSERT_TRUE(track(test::aside(0.1)).tracked());
   EXPECT_FALSE(track(test::aside(0.35)).tracked());
@@ -103,8 +103,8 @@ TEST_F(TrackerTest, a_refused_frame_counts_as_a_step) {
   for (int k = 1; k <= 5; ++k) EXPECT_EQ(track(test::aside(0.35 + 0.16 * k)).tracked(), false) << k;
 }
 
-TEST_F(TrackerTest, after_being_lost_max_norm_lp_holds_from_the_keyframe) {
-  options_.max_norm_lp = 0.3;
+TEST_F(TrackerTest, after_being_lost_max_loop_motion_holds_from_the_keyframe) {
+  options_.max_loop_motion = 0.3;
   (void)track_nothing();
   EXPECT_FALSE(track(test::aside(0.4)).tracked());
   EXPECT_TRUE(track(test::aside(0.2)).tracked());

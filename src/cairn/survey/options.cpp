@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/survey/options.h"
 
+#include <optional>
 #include <string>
 
 #include "cairn/core/parameter.h"
@@ -8,56 +9,106 @@
 namespace cairn {
 namespace {
 
-void validate_tracks(const TrackOptions& tracks) {
-  check_parameter(tracks.window >= 2, "window", "at least 2 frames", tracks.window);
-  check_parameter(tracks.max_frames >= 3, "max_frames", "at least 3 frames", tracks.max_frames);
-  check_parameter(tracks.smooth_frames >= 0 && tracks.smooth_frames < tracks.window, "smooth_frames",
-                  "a number of frames from 0, less than the window", tracks.smooth_frames);
-  check_parameter(is_positive(tracks.epipolar_px), "epipolar_px", "pixels above 0", tracks.epipolar_px);
-  check_parameter(is_positive(tracks.search_px), "search_px", "pixels above 0", tracks.search_px);
-  check_parameter(is_share(tracks.max_ratio), "max_ratio", "a ratio from 0 (off) to 1", tracks.max_ratio);
-  check_parameter(tracks.min_view_change >= 0, "min_view_change", "radians from 0", tracks.min_view_change);
+void visit(TrackOptions& tracks, ParameterVisitor& visitor) {
+  visitor.parameter(
+      {"window", at_least(2, "frames"),
+       "Frames for which a landmark may go unseen before it is finished. It bounds the memory."},
+      tracks.window);
+  visitor.parameter({"smooth_frames", from(0, "a number of frames", "none"),
+                     "Frames on either side whose poses and motions smooth a pose; fewer than window."},
+                    tracks.smooth_frames);
+  visitor.parameter(
+      {"max_frames", at_least(3, "frames"), "Length at which a track is closed and a new one begins."},
+      tracks.max_frames);
+  visitor.parameter({"epipolar_px", above(0, "pixels"),
+                     "Largest distance of a match from the epipolar line, times the larger scale of both "
+                     "features."},
+                    tracks.epipolar_px);
+  visitor.parameter({"search_px", above(0, "pixels"),
+                     "Search radius around the predicted position, at the finest scale, plus what the depth "
+                     "leaves open."},
+                    tracks.search_px);
+  visitor.parameter({"max_ratio", from_to(0, 1, "a ratio", "off"),
+                     "Largest distance of the nearest descriptor relative to that of the second nearest, "
+                     "within the search radius."},
+                    tracks.max_ratio);
+  visitor.parameter(
+      {"min_view_change", from(0, "radians"),
+       "A frame that changes the view by less since the last one used is passed over: rotation, "
+       "plus the distance moved divided by the median depth."},
+      tracks.min_view_change);
 }
 
-void validate_fit(const LandmarkFitOptions& fit) {
-  check_parameter(fit.min_observations >= 2, "adjust.min_frames", "at least 2 frames", fit.min_observations);
-  check_parameter(is_positive(fit.max_error), "adjust.max_error_sigmas", "standard deviations above 0",
-                  fit.max_error);
+void visit_adjustment(SurveyOptions& survey, ParameterVisitor& visitor) {
+  visitor.parameter(
+      {"adjust.min_frames", at_least(2, "frames"), "Fewest frames from which a landmark is solved."},
+      survey.fit.min_observations);
+  visitor.parameter({"adjust.max_error_sigmas", above(0, "standard deviations"),
+                     "An observation with a larger error is dropped, the worst one first."},
+                    survey.fit.max_error);
+  visitor.parameter({"adjust.sigma_px", above(0, "pixels"),
+                     "Standard deviation of u and v of a feature of the finest scale; times the scale for "
+                     "others."},
+                    survey.covariance.sigma_px);
+  visitor.parameter({"adjust.pose_errors",
+                     {},
+                     "Whether the stated standard deviations of the given poses add to the covariance."},
+                    survey.covariance.pose_errors);
 }
 
-void validate_limits(const std::string& name, const SpreadLimits& limits) {
-  const auto check = [&](const std::optional<double>& bound, const char* which) {
-    if (bound) check_parameter(*bound >= 0, (name + which).c_str(), "a number from 0", *bound);
+/// Visits the four limits of one quantity; `name` is that of its parameters without the last word.
+void visit_limits(SpreadLimits& limits, const std::string& name, const char* unit,
+                  const std::string& quantity, ParameterVisitor& visitor) {
+  const auto visit_limit = [&](const char* which, const std::string& meaning, std::optional<double>& limit) {
+    visitor.parameter({(name + which).c_str(), from(0, unit), meaning.c_str()}, limit);
   };
-  check(limits.min, ".min");
-  check(limits.max, ".max");
-  check(limits.max_mean, ".max_mean");
-  check(limits.max_std, ".max_std");
+  visit_limit(".min", "Smallest " + quantity + ", for every observation.", limits.min);
+  visit_limit(".max", "Largest " + quantity + ", for every observation.", limits.max);
+  visit_limit(".max_mean", "Largest mean over the observations of the " + quantity + ".", limits.max_mean);
+  visit_limit(".max_std", "Largest standard deviation over the observations of the " + quantity + ".",
+              limits.max_std);
 }
 
-void validate_cleaning(const CleaningOptions& cleaning) {
-  check_parameter(cleaning.min_frames >= 2, "clean.min_frames", "at least 2 frames", cleaning.min_frames);
-  check_parameter(is_positive(cleaning.max_std_m), "clean.max_std_m", "metres above 0", cleaning.max_std_m);
-  check_parameter(is_positive(cleaning.max_rms_px), "clean.max_rms_px", "pixels above 0",
-                  cleaning.max_rms_px);
-  check_parameter(cleaning.min_ray_angle_deg >= 0, "clean.min_ray_angle_deg", "degrees from 0",
-                  cleaning.min_ray_angle_deg);
-  validate_limits("clean.depth", cleaning.depth);
-  validate_limits("clean.distance", cleaning.distance);
-  validate_limits("clean.lateral", cleaning.lateral);
-  validate_limits("clean.angle_deg", cleaning.angle_deg);
-  check_parameter(cleaning.duplicate_sigmas >= 0, "clean.duplicate_sigmas", "standard deviations from 0",
-                  cleaning.duplicate_sigmas);
+void visit(CleaningOptions& cleaning, ParameterVisitor& visitor) {
+  visitor.parameter({"clean.min_frames", at_least(2, "frames"),
+                     "Fewest frames left of a landmark after bad observations were dropped."},
+                    cleaning.min_frames);
+  visitor.parameter({"clean.max_std_m", above(0, "metres"),
+                     "Largest standard deviation of a landmark along its worst direction, without what the "
+                     "deviations of the poses add."},
+                    cleaning.max_std_m);
+  visitor.parameter({"clean.max_rms_px", above(0, "pixels"), "Largest RMS residual of (u, v)."},
+                    cleaning.max_rms_px);
+  visitor.parameter(
+      {"clean.min_ray_angle_deg", from(0, "degrees"),
+       "Smallest value of the largest angle between two rays to a landmark; below it, the depth "
+       "rests on the disparity alone."},
+      cleaning.min_ray_angle_deg);
+  visit_limits(cleaning.depth, "clean.depth", "metres", "depth along the optical axis", visitor);
+  visit_limits(cleaning.distance, "clean.distance", "metres", "distance from the camera", visitor);
+  visit_limits(cleaning.lateral, "clean.lateral", "metres", "distance from the optical axis", visitor);
+  visit_limits(cleaning.angle_deg, "clean.angle_deg", "degrees", "angle between ray and optical axis",
+               visitor);
+  visitor.parameter({"clean.duplicate_sigmas", from(0, "standard deviations"),
+                     "Largest difference of two landmarks that are merged, if they look alike and one point "
+                     "fits all their observations."},
+                    cleaning.duplicate_sigmas);
 }
 
 }  // namespace
 
+void visit(SurveyOptions& options, ParameterVisitor& visitor) {
+  visit(options.observer, visitor);
+  visit(options.tracks, visitor);
+  visit_adjustment(options, visitor);
+  visit(options.cleaning, visitor);
+}
+
 void SurveyOptions::validate() const {
   observer.validate();
-  validate_tracks(tracks);
-  validate_fit(fit);
-  check_parameter(is_positive(covariance.sigma_px), "adjust.sigma_px", "pixels above 0", covariance.sigma_px);
-  validate_cleaning(cleaning);
+  check_ranges(*this);
+  check_parameter(tracks.smooth_frames < tracks.window, "smooth_frames",
+                  "a number of frames from 0, less than the window", tracks.smooth_frames);
 }
 
 }  // namespace cairn

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "cairn/core/parameter.h"
 #include "cairn/frontend/observer.h"
 #include "cairn/optimize/landmark_fit.h"
 
@@ -78,8 +79,12 @@ struct SurveyOptions {
   CovarianceOptions covariance;
   CleaningOptions cleaning;
 
-  /// InputError naming the parameter that is out of range.
+  /// Throws InputError naming the parameter that is out of range.
   void validate() const;
 };
+
+/// Visits the parameters of mapping with known poses, in the order of config.yaml, with those of the
+/// observer.
+void visit(SurveyOptions& options, ParameterVisitor& visitor);
 
 }  // namespace cairn
