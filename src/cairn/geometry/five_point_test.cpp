@@ -60,15 +60,16 @@ TEST(FivePoint, gives_essential_matrices_of_the_five_pairs) {
   EXPECT_GT(solutions_checked, 400);
 }
 
-TEST(FivePoint, has_no_solution_for_one_pair_five_times) {
+TEST(FivePoint, of_one_pair_five_times_has_finite_solutions_at_most) {
   TwoViewScene scene = make_two_view_scene(1, 5);
   for (std::size_t i = 1; i < 5; ++i) {
     scene.a[i] = scene.a[0];
     scene.b[i] = scene.b[0];
   }
   const FivePointSolutions solutions = solve(scene);
+  EXPECT_LE(solutions.count, 10);
   for (int i = 0; i < solutions.count; ++i)
-    EXPECT_TRUE(solutions.essential[static_cast<std::size_t>(i)].allFinite());
+    EXPECT_TRUE(solutions.essential.at(static_cast<std::size_t>(i)).allFinite());
 }
 
 }  // namespace

@@ -62,9 +62,11 @@ TEST(P3p, finds_the_pose_of_random_scenes) {
 
 TEST(P3p, every_solution_sees_the_points_along_the_rays) {
   Random random(21);
+  int count = 0;
   for (int i = 0; i < 1000; ++i) {
     const Scene scene = random_scene(random);
     const P3pSolutions solutions = solve_p3p(scene.points_in_world, scene.rays);
+    count += solutions.count;
     for (int s = 0; s < solutions.count; ++s) {
       for (std::size_t p = 0; p < 3; ++p) {
         const Eigen::Vector3d ray =
@@ -74,6 +76,7 @@ TEST(P3p, every_solution_sees_the_points_along_the_rays) {
       }
     }
   }
+  EXPECT_GE(count, 1000);
 }
 
 TEST(P3p, has_no_solution_for_points_on_a_line_or_in_one_place) {
