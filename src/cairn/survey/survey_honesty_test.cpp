@@ -137,7 +137,7 @@ class StreetMapper {
     std::vector<SurfacePoint> points;
     for (const Sighting& sighting : landmark.sightings) {
       const auto feature = frames_[sighting.keyframe].kept[static_cast<std::size_t>(sighting.feature)];
-      const auto& shown = street()[static_cast<std::size_t>(sighting.keyframe.value)].shown[feature];
+      const auto& shown = street()[sighting.keyframe.index()].shown[feature];
       if (!shown) return std::nullopt;
       points.push_back(*shown);
       for (int k = 0; k < 3; ++k)

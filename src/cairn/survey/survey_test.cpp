@@ -45,10 +45,10 @@ TEST_F(SurveyTest, landmarks_lie_on_what_was_seen) {
   for (int i = 0; i < kFrames; ++i) truth.push_back(street.render(i).depth_true);
   std::size_t on_surface = 0;
   for (const Landmark& landmark : map.landmarks()) {
-    const auto frame = static_cast<std::size_t>(landmark.sightings.front().keyframe.value);
+    const auto frame = landmark.sightings.front().keyframe.index();
     const Rigid3 camera_from_world = map.world_from_camera(landmark.sightings.front().keyframe).inverse();
     const Eigen::Vector3d point = camera_from_world * landmark.point_in_world;
-    const Eigen::Matrix3d& covariance = covariances[static_cast<std::size_t>(landmark.id.value)];
+    const Eigen::Matrix3d& covariance = covariances[landmark.id.index()];
     const Eigen::Vector3d axis = camera_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
     const double sigma = std::sqrt(axis.dot(covariance * axis));
     const double surface = surface_near(truth[frame], map.rig().project(point), point.z());
