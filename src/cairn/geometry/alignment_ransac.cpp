@@ -35,8 +35,8 @@ struct AlignmentProblem {
     return true;
   }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     return fit(sample, models[0]) ? 1 : 0;
   }
   [[nodiscard]] double squared_error(const Model& target_from_source, std::size_t i) const {

@@ -20,8 +20,8 @@ struct EssentialProblem {
 
   [[nodiscard]] std::size_t size() const { return a.size(); }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     std::array<Eigen::Vector2d, kSampleSize> in_a, in_b;
     for (std::size_t i = 0; i < kSampleSize; ++i) {
       in_a[i] = a[sample[i]];

@@ -37,8 +37,8 @@ TEST_F(SurveyTest, landmarks_lie_on_what_was_seen) {
   EXPECT_EQ(result.counts.frames, kFrames);
   const Map map = read_map(folder("map"));
   const auto covariances = read_covariances(folder("map"));
-  ASSERT_EQ(map.landmarks().size(), static_cast<std::size_t>(result.counts.landmarks));
-  EXPECT_EQ(map.keyframes().size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(std::ssize(map.landmarks()), result.counts.landmarks);
+  EXPECT_EQ(std::ssize(map.keyframes()), kFrames);
   EXPECT_GT(map.landmarks().size(), 300U);
   const SimulatedStreet street(street_options());
   std::vector<DepthImage> truth;
@@ -86,7 +86,7 @@ TEST_F(SurveyTest, the_map_holds_together) {
 TEST_F(SurveyTest, is_the_same_at_any_number_of_threads) {
   (void)survey("one", 1);
   const auto one = contents_of(folder("one"));
-  EXPECT_GT(one.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_GT(std::ssize(one), kFrames);
   for (const int threads : {2, 3}) {
     const std::string name = std::to_string(threads);
     (void)survey(name, threads);
@@ -167,7 +167,7 @@ TEST_F(SurveyTest, frames_without_a_pose_are_left_out) {
   EXPECT_EQ(result.counts.without_pose, 2);
   EXPECT_EQ(result.counts.frames, kFrames - 2);
   const Map map = read_map(folder("map"));
-  ASSERT_EQ(map.keyframes().size(), static_cast<std::size_t>(kFrames - 2));
+  ASSERT_EQ(std::ssize(map.keyframes()), kFrames - 2);
   EXPECT_EQ(map.keyframes()[3].observed.frame, FrameId{3});
   EXPECT_EQ(map.keyframes()[4].observed.frame, FrameId{5});
 }
@@ -231,7 +231,7 @@ TEST_F(SurveyTest, images_without_texture_make_a_map_without_landmarks) {
   const SurveyResult result = survey("map");
   EXPECT_EQ(result.counts.landmarks, 0);
   EXPECT_EQ(result.counts.features, 0);
-  EXPECT_EQ(read_map(folder("map")).keyframes().size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(std::ssize(read_map(folder("map")).keyframes()), kFrames);
 }
 
 TEST_F(SurveyTest, wrong_poses_make_no_landmarks) {
