@@ -34,6 +34,7 @@ packages_build=(
   libtbb-dev                            # parallel loops
   libfmt-dev                            # text formatting
   libpng-dev libturbojpeg0-dev          # images
+  zlib1g-dev                            # checksums of maps
   libopencv-core-dev libopencv-imgproc-dev libopencv-features2d-dev  # detectors by name
   libyaml-cpp-dev nlohmann-json3-dev    # camera.yaml, run.json
   libceres-dev                          # pose graph

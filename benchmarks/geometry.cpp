@@ -11,6 +11,7 @@
 
 #include "cairn/core/random.h"
 #include "cairn/geometry/essential_ransac.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/pnp_ransac.h"
 
 namespace cairn::bench {
@@ -83,8 +84,8 @@ bool is_right(const Rigid3& estimate, const Rigid3& truth) {
 }
 
 /// The limit of an inlier's distance, the same for both: the root of the 95 % quantile times sigma.
-const double kPnpLimitPx = std::sqrt(5.991) * kSigmaPx;
-const double kEssentialLimitPx = std::sqrt(3.841) * kSigmaPx;
+const double kPnpLimitPx = std::sqrt(kInlierLimit2) * kSigmaPx;
+const double kEssentialLimitPx = std::sqrt(kInlierLimit1) * kSigmaPx;
 
 RansacOptions options_of(std::size_t item) {
   return {.max_iterations = kMaxIterations, .confidence = kConfidence, .item = item};

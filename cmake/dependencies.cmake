@@ -3,6 +3,7 @@ find_package(Eigen3 3.4 REQUIRED)     # vectors, small matrices and decompositio
 find_package(fmt REQUIRED)            # text formatting (g++ 12 has no std::format)
 find_package(TBB REQUIRED)            # parallel loops and the ordered frame pipeline
 find_package(PNG REQUIRED)            # PNG decoding and encoding, 8 and 16 bit
+find_package(ZLIB REQUIRED)            # CRC-32 of the files of a map
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(turbojpeg REQUIRED IMPORTED_TARGET libturbojpeg)  # JPEG, straight to grey where colour is not needed
 find_package(yaml-cpp REQUIRED)       # camera.yaml and configuration files

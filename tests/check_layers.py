@@ -16,7 +16,7 @@ from sources import ROOT, cpp_files
 
 # Bottom to top, each with the libraries that it may use beside EVERYWHERE.
 ROOMS = {
-    "core": {"tbb"},
+    "core": {"tbb", "zlib"},
     "geometry": set(),
     "image": {"opencv", "png", "turbojpeg"},
     "sequence": {"yaml-cpp", "GeographicLib"},
@@ -38,7 +38,7 @@ HEAVY = {"opencv", "ceres", "octomap", "yaml-cpp", "nlohmann", "CLI"}
 # What an include begins with, and the library that it comes from.
 LIBRARIES = {
     "tbb/": "tbb", "oneapi/tbb": "tbb", "fmt/": "fmt", "Eigen/": "Eigen", "unsupported/Eigen/": "Eigen",
-    "opencv2/": "opencv", "png.h": "png", "turbojpeg.h": "turbojpeg", "yaml-cpp/": "yaml-cpp",
+    "opencv2/": "opencv", "png.h": "png", "zlib.h": "zlib", "turbojpeg.h": "turbojpeg", "yaml-cpp/": "yaml-cpp",
     "ceres/": "ceres", "glog/": "ceres", "octomap/": "octomap", "nlohmann/": "nlohmann", "CLI/": "CLI",
     "GeographicLib/": "GeographicLib", "gtest/": "gtest", "gmock/": "gtest",
 }

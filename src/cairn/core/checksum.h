@@ -6,16 +6,18 @@
 
 namespace cairn {
 
-/// CRC-32 as in zlib, PNG and Python's zlib.crc32 (polynomial 0xEDB88320, reflected).
+/// Returns zlib's CRC-32 of the bytes, which is that of PNG and gzip, too; 0 of none.
 [[nodiscard]] std::uint32_t crc32(std::string_view bytes);
 
-/// The same of bytes that come piece by piece.
+/// Computes the CRC-32 of bytes that come piece by piece.
 class Crc32 {
  public:
   Crc32() = default;
-  /// Goes on after bytes that have this CRC-32.
+  /// Continues after bytes that have the CRC-32 `value`.
   explicit Crc32(std::uint32_t value) : value_(value) {}
+  /// Appends bytes; none of them leaves the value as it is.
   void add(std::string_view bytes);
+  /// Returns the CRC-32 of all bytes so far.
   [[nodiscard]] std::uint32_t value() const { return value_; }
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 
 namespace cairn {
@@ -12,6 +13,8 @@ struct Id {
   std::int32_t value = -1;
 
   [[nodiscard]] bool valid() const { return value >= 0; }
+  /// Returns the position in a container of what the id, which is valid, stands for.
+  [[nodiscard]] std::size_t index() const { return static_cast<std::size_t>(value); }
   auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };
 

@@ -81,7 +81,7 @@ FusionReport fuse_sequence(const Sequence& sequence,
   FusionReport report;
   report.frames = static_cast<std::int64_t>(sequence.frames.size());
   const std::vector<FrameId> ids = frames_to_fuse(sequence, world_from_camera, report);
-  const auto pose_of = [&](FrameId id) { return *world_from_camera[static_cast<std::size_t>(id.value)]; };
+  const auto pose_of = [&](FrameId id) { return *world_from_camera[id.index()]; };
   const FrameLoader loader(sequence);
   const PixelRays rays(sequence.calibration.camera);
   SkippedFrames skipped(progress);

@@ -107,7 +107,7 @@ void PcdHeader::declare_fields(const Words& words) {
     } else if (words[0] == "TYPE") {
       set_kind(fields_[i], words[i + 1]);
     } else {
-      fields_[i].count = static_cast<int>(integer(words[i + 1], "COUNT", 1, 1'000'000));
+      fields_[i].count = static_cast<std::size_t>(integer(words[i + 1], "COUNT", 1, 1'000'000));
     }
   }
 }
@@ -115,7 +115,7 @@ void PcdHeader::declare_fields(const Words& words) {
 void PcdHeader::set_size(PointField& field, std::string_view word) const {
   if (word != "1" && word != "2" && word != "4" && word != "8")
     fail("a SIZE of 1, 2, 4 or 8", fmt::format("'{}'", word), "Mend the header.");
-  field.size = word[0] - '0';
+  field.size = static_cast<std::size_t>(word[0] - '0');
 }
 
 void PcdHeader::set_kind(PointField& field, std::string_view word) const {

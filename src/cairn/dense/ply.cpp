@@ -19,7 +19,7 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 std::optional<PointField> field_of(std::string_view type, std::string_view name) {
-  constexpr std::pair<std::string_view, std::pair<char, int>> kTypes[] = {
+  constexpr std::pair<std::string_view, std::pair<char, std::size_t>> kTypes[] = {
       {"char", {'I', 1}},  {"int8", {'I', 1}},    {"uchar", {'U', 1}},  {"uint8", {'U', 1}},
       {"short", {'I', 2}}, {"int16", {'I', 2}},   {"ushort", {'U', 2}}, {"uint16", {'U', 2}},
       {"int", {'I', 4}},   {"int32", {'I', 4}},   {"uint", {'U', 4}},   {"uint32", {'U', 4}},

@@ -82,14 +82,14 @@ std::vector<std::string_view> words_of(std::string_view line) {
 PointRecords::PointRecords(const std::filesystem::path& path, std::vector<PointField> fields)
     : path_(path), fields_(std::move(fields)) {
   for (const PointField& field : fields_) {
-    stride_ += static_cast<std::size_t>(field.size) * static_cast<std::size_t>(field.count);
-    columns_ += static_cast<std::size_t>(field.count);
+    stride_ += field.size * field.count;
+    columns_ += field.count;
   }
   x_ = find({"x"});
   y_ = find({"y"});
   z_ = find({"z"});
   for (const auto& [slot, name] : {std::pair{x_, "x"}, {y_, "y"}, {z_, "z"}}) {
-    if (slot.field < 0)
+    if (!slot.field)
       fail(0, "points with x, y and z", fmt::format("none with {}", name), "Choose a point cloud.");
   }
   red_ = find({"red", "r", "diffuse_red"});
@@ -101,13 +101,13 @@ PointRecords::PointRecords(const std::filesystem::path& path, std::vector<PointF
 
 void PointRecords::check_color() const {
   for (const Slot& slot : {red_, green_, blue_}) {
-    if (slot.field < 0) continue;
-    const PointField& field = fields_[static_cast<std::size_t>(slot.field)];
+    if (!slot.field) continue;
+    const PointField& field = fields_[*slot.field];
     if (field.kind != 'U' || field.size != 1)
       fail(0, "colours as unsigned bytes", describe(field), "Convert the file, or remove its colours.");
   }
-  if (packed_.field < 0) return;
-  const PointField& field = fields_[static_cast<std::size_t>(packed_.field)];
+  if (!packed_.field) return;
+  const PointField& field = fields_[*packed_.field];
   if (field.size != 4) fail(0, "a packed colour of 4 bytes", describe(field), "Convert the file.");
 }
 
@@ -119,17 +119,17 @@ PointRecords::Slot PointRecords::find(const std::vector<std::string_view>& names
   Slot slot;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (std::find(names.begin(), names.end(), fields_[i].name) != names.end()) {
-      slot.field = static_cast<int>(i);
+      slot.field = i;
       return slot;
     }
-    slot.offset += static_cast<std::size_t>(fields_[i].size) * static_cast<std::size_t>(fields_[i].count);
-    slot.column += static_cast<std::size_t>(fields_[i].count);
+    slot.offset += fields_[i].size * fields_[i].count;
+    slot.column += fields_[i].count;
   }
   return slot;
 }
 
 double PointRecords::value(const char* record, const Slot& slot) const {
-  const PointField& field = fields_[static_cast<std::size_t>(slot.field)];
+  const PointField& field = fields_[*slot.field];
   const char* bytes = record + slot.offset;
   if (field.kind == 'F') return field.size == 8 ? load<double>(bytes) : load<float>(bytes);
   const bool has_sign = field.kind == 'I';
@@ -146,7 +146,7 @@ double PointRecords::value(const char* record, const Slot& slot) const {
 }
 
 void PointRecords::set_color(CloudPoint& point, const char* record) const {
-  if (packed_.field >= 0) {
+  if (packed_.field) {
     std::uint32_t packed = 0;
     std::memcpy(&packed, record + packed_.offset, sizeof packed);
     set_packed(point, packed);
@@ -164,7 +164,7 @@ Cloud PointRecords::read_binary(const PointData& data) const {
          fmt::format("{} bytes of points", data.bytes.size()), std::string(kShort));
   }
   Cloud cloud;
-  cloud.colored = packed_.field >= 0 || (red_.field >= 0 && green_.field >= 0 && blue_.field >= 0);
+  cloud.colored = packed_.field || (red_.field && green_.field && blue_.field);
   cloud.points.reserve(data.count);
   for (std::size_t i = 0; i < data.count; ++i) {
     const char* record = data.bytes.data() + i * stride_;
@@ -179,7 +179,7 @@ Cloud PointRecords::read_binary(const PointData& data) const {
 }
 
 std::uint32_t PointRecords::parse_packed(std::string_view text, int line) const {
-  const PointField& field = fields_[static_cast<std::size_t>(packed_.field)];
+  const PointField& field = fields_[*packed_.field];
   std::int64_t integer = 0;
   float number = 0;
   if (field.kind != 'F' && parse_integer(text, integer)) return static_cast<std::uint32_t>(integer);
@@ -195,7 +195,7 @@ CloudPoint PointRecords::parse(const std::vector<std::string_view>& values, int 
          "Mend or delete the line.");
   };
   const auto channel = [&](const Slot& slot, std::string_view name, std::uint8_t& out) {
-    if (slot.field < 0 || parse_byte(values[slot.column], out)) return;
+    if (!slot.field || parse_byte(values[slot.column], out)) return;
     fail(line, fmt::format("a whole number from 0 to 255 for {}", name),
          fmt::format("'{}'", values[slot.column]), "Mend or delete the line.");
   };
@@ -205,7 +205,7 @@ CloudPoint PointRecords::parse(const std::vector<std::string_view>& values, int 
   channel(red_, "red", point.r);
   channel(green_, "green", point.g);
   channel(blue_, "blue", point.b);
-  if (packed_.field >= 0) set_packed(point, parse_packed(values[packed_.column], line));
+  if (packed_.field) set_packed(point, parse_packed(values[packed_.column], line));
   return point;
 }
 
@@ -216,7 +216,7 @@ Cloud PointRecords::read_ascii(const PointData& data) const {
          fmt::format("{} bytes of points", data.bytes.size()), std::string(kShort));
   }
   Cloud cloud;
-  cloud.colored = packed_.field >= 0 || (red_.field >= 0 && green_.field >= 0 && blue_.field >= 0);
+  cloud.colored = packed_.field || (red_.field && green_.field && blue_.field);
   cloud.points.reserve(data.count);
   int line = data.first_line - 1;
   std::size_t begin = 0, read = 0;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +17,9 @@ namespace cairn {
 /// One named value of a point in a file, as PLY's properties and PCD's fields declare it.
 struct PointField {
   std::string name;
-  char kind = 'F';  ///< 'F' floating point, 'I' signed, 'U' unsigned
-  int size = 4;     ///< bytes: 1, 2, 4 or 8
-  int count = 1;    ///< values, above 1 only in PCD
+  char kind = 'F';        ///< 'F' floating point, 'I' signed, 'U' unsigned
+  std::size_t size = 4;   ///< bytes: 1, 2, 4 or 8
+  std::size_t count = 1;  ///< values, above 1 only in PCD
 };
 
 /// Where a file's points begin.
@@ -43,9 +45,9 @@ class PointRecords {
 
  private:
   struct Slot {
-    int field = -1;          // -1: the file has none
-    std::size_t offset = 0;  // bytes from the start of the record
-    std::size_t column = 0;  // number of its first value in a line
+    std::optional<std::size_t> field;  // none: the file lacks it
+    std::size_t offset = 0;            // bytes from the start of the record
+    std::size_t column = 0;            // number of its first value in a line
   };
   [[nodiscard]] Slot find(const std::vector<std::string_view>& names) const;
   [[nodiscard]] double value(const char* record, const Slot& slot) const;

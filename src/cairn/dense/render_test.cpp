@@ -71,6 +71,7 @@ Cloud red_wall() {
 
 TEST(Render, AWallFillsThePictureWithoutHoles) {
   const RgbImage picture = render_cloud(red_wall(), looking_at_wall(0.8));
+  EXPECT_GT(picture.size(), 0U);
   for (std::size_t i = 0; i < picture.size(); ++i) EXPECT_EQ(picture.data()[i], (Rgb8{200, 0, 0})) << i;
 }
 
@@ -114,6 +115,7 @@ TEST(Render, WhatFacesAwayIsLeftOutWithASurface) {
 
 TEST(Surface, NormalsOfAPlanePointAtTheCamera) {
   const CloudSurface surface(red_wall(), {looking_at_wall(2).world_from_camera}, 0.05);
+  EXPECT_FALSE(surface.cells().empty());
   for (const SurfaceCell& cell : surface.cells()) {
     EXPECT_TRUE(cell.seen || cell.centre.norm() > 1);
     EXPECT_NEAR(std::abs(cell.normal.z()), 1, 1e-4);

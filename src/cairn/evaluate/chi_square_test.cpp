@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/inlier_limits.h"
 
 namespace cairn {
 namespace {
@@ -39,6 +40,13 @@ constexpr Quantile kQuantiles[] = {
     {1001, 0.025, 915.21333122044130},  {1001, 0.5, 1000.3334123243323},    {1001, 0.68, 1021.3979370303571},
     {1001, 0.95, 1075.7162285460292},   {1001, 0.975, 1090.5747358987630},  {1001, 0.999, 1144.9861668100878},
 };
+
+TEST(ChiSquare, InlierLimitsAreQuantiles) {
+  EXPECT_NEAR(chi_square_quantile(0.95, 1), kInlierLimit1, 5e-4);
+  EXPECT_NEAR(chi_square_quantile(0.95, 2), kInlierLimit2, 5e-4);
+  EXPECT_NEAR(chi_square_quantile(0.95, 3), kInlierLimit3, 5e-4);
+  EXPECT_NEAR(std::sqrt(chi_square_quantile(0.95, 2)), kInlierScale2, 5e-4);
+}
 
 TEST(ChiSquare, QuantilesAreThoseOfSixtyDigits) {
   for (const auto& [degrees, probability, value] : kQuantiles) {

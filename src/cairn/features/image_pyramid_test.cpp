@@ -35,7 +35,9 @@ TEST(ImagePyramid, stops_at_the_smallest_side) {
 
 TEST(ImagePyramid, places_are_those_of_the_image) {
   const GrayImage image = ramp(320, 240);
-  for (const auto& level : build_pyramid(image, {6, 1.2, 39}).levels) {
+  const ImagePyramid pyramid = build_pyramid(image, {6, 1.2, 39});
+  EXPECT_EQ(pyramid.levels.size(), 6U);
+  for (const auto& level : pyramid.levels) {
     for (int v = 2; v < level.image.height() - 2; v += 5) {
       for (int u = 2; u < level.image.width() - 2; u += 5) {
         const double expected = level.u_in_image(u) * 0.3 + level.v_in_image(v) * 0.4;

@@ -72,6 +72,7 @@ TEST(ScaleSpace, has_the_same_bits_at_any_number_of_threads) {
   ScaleSpace one(150, 131, 3), three(150, 131, 3);
   one.build(image, Executor(1));
   three.build(image, Executor(3));
+  ASSERT_GT(one.octave_count(), 0);
   for (int octave = 0; octave < one.octave_count(); ++octave)
     for (int i = 0; i < one.level_count(octave); ++i)
       for (int v = 0; v < one.level(octave, i).height; ++v)

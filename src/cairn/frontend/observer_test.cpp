@@ -157,6 +157,7 @@ TEST(ObserveStereo, measures_the_disparity_of_a_shifted_pair) {
 TEST(ObserveStereo, no_disparity_is_better_than_the_calibration) {
   const ObserverOptions options;
   const ObservedFrame observed = Observer(stereo_calibration(), options).observe(stereo_frame(11.4));
+  EXPECT_GT(with_depth(observed), 50);
   for (const Observation& seen : observed.observations)
     if (seen.has_disparity()) {
       EXPECT_GE(seen.sigma_d_px, options.stereo_noise.sigma_floor_px);

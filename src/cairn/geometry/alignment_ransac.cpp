@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/geometry/inlier_limits.h"
 
 namespace cairn {
 namespace {
@@ -14,7 +15,6 @@ using Points = std::span<const Eigen::Vector3d>;
 struct AlignmentProblem {
   using Model = Similarity3;
   static constexpr std::size_t kSampleSize = 3, kMaxModels = 1;
-  static constexpr double kLimit = 7.815;  // chi-square, three degrees of freedom, 95 %
 
   Points source, target;
   bool with_scale = false;
@@ -35,14 +35,14 @@ struct AlignmentProblem {
     return true;
   }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     return fit(sample, models[0]) ? 1 : 0;
   }
   [[nodiscard]] double squared_error(const Model& target_from_source, std::size_t i) const {
     return (target[i] - target_from_source * source[i]).squaredNorm() / (sigma * sigma);
   }
-  [[nodiscard]] static double limit(std::size_t /*i*/) { return kLimit; }
+  [[nodiscard]] static double limit(std::size_t /*i*/) { return kInlierLimit3; }
   bool refine(std::span<const std::int32_t> inliers, Model& model) const { return fit(inliers, model); }
 
   /// A wrong target lies in the ball around the place where the model has it, somewhere in the box around all
@@ -53,7 +53,7 @@ struct AlignmentProblem {
       low = low.min(point.array());
       high = high.max(point.array());
     }
-    const double radius = std::sqrt(kLimit) * sigma;
+    const double radius = std::sqrt(kInlierLimit3) * sigma;
     return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius / (high - low).max(2.0 * radius).prod();
   }
 };

@@ -10,9 +10,8 @@ namespace cairn {
 
 /// align_points in RANSAC, for correspondences of which some are wrong: samples of three, scored by squared
 /// distance over `sigma`^2, sigma the standard deviation of each coordinate of target_i - target_from_source
-/// source_i in the target's unit, with the 95 % quantile of chi-square with three degrees of freedom (7.81)
-/// as limit; refined by align_points over the inliers. status is degenerate where all inliers lie on one
-/// line. PreconditionError as for align_points.
+/// source_i in the target's unit, with kInlierLimit3 as limit; refined by align_points over the inliers.
+/// status is degenerate if all inliers lie on one line. PreconditionError as for align_points.
 [[nodiscard]] RansacResult<Similarity3> align_points_ransac(std::span<const Eigen::Vector3d> source,
                                                             std::span<const Eigen::Vector3d> target,
                                                             bool with_scale, double sigma,

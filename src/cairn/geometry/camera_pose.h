@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cairn/geometry/framed.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/geometry/robust_kernel.h"
 
@@ -35,10 +36,10 @@ struct PoseOptions {
   PoseSelection selection = PoseSelection::inliers;
   PoseMethod method = PoseMethod::levenberg_marquardt;
   RobustKernel kernel = RobustKernel::huber;
-  double kernel_scale = 2.448;   ///< standard deviations, above 0: the root of the 95 % limit of (u, v)
-  int rounds = 4;                ///< at most, of sorting into inliers and outliers; at least 1
-  int max_iterations = 50;       ///< of a round; at least 1, and 4 to 10 are usual
-  double converged_step = 1e-6;  ///< radians and metres, above 0: far below what pixels determine
+  double kernel_scale = kInlierScale2;  ///< standard deviations, above 0
+  int rounds = 4;                       ///< at most, of sorting into inliers and outliers; at least 1
+  int max_iterations = 50;              ///< of a round; at least 1, and 4 to 10 are usual
+  double converged_step = 1e-6;         ///< radians and metres, above 0: far below what pixels determine
 
   /// Throws PreconditionError for a value out of range.
   void validate() const;

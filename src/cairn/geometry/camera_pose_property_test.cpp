@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/test_camera_pose.h"
 
 namespace cairn {
@@ -20,7 +21,7 @@ std::ostream& operator<<(std::ostream& out, const OptionSet& set) {
 }
 
 PoseOptions options_of(PoseSelection selection, PoseMethod method, RobustKernel kernel,
-                       double scale = 2.448) {
+                       double scale = kInlierScale2) {
   PoseOptions options;
   options.selection = selection, options.method = method;
   options.kernel = kernel, options.kernel_scale = scale;

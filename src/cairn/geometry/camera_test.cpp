@@ -103,12 +103,16 @@ class CameraTest : public testing::TestWithParam<NamedCamera> {
   template <class Check>
   void for_each_point(const Check& check) const {
     Random random(11);
-    for (int i = 0; i < 300; ++i) {
+    int seen = 0;
+    for (int i = 0; i < 1000; ++i) {
       const double z = random.uniform(0.3, 20.0);
       const Eigen::Vector3d point(z * random.uniform(-1.5, 1.5), z * random.uniform(-1.5, 1.5), z);
       const auto pixel = camera_.project(point);
-      if (pixel && camera_.contains(*pixel)) check(point);
+      if (!pixel || !camera_.contains(*pixel)) continue;
+      ++seen;
+      check(point);
     }
+    EXPECT_GT(seen, 20);
   }
 
   const Camera& camera_ = GetParam().camera;
@@ -146,9 +150,7 @@ TEST_P(CameraTest, projecting_a_pixels_ray_gives_the_pixel) {
     ASSERT_TRUE(again) << pixel.transpose();
     EXPECT_LT((*again - pixel).norm(), 1e-8) << pixel.transpose();
   });
-  if (camera_.model != CameraModel::kb4) {
-    EXPECT_EQ(missing, 0);
-  }
+  EXPECT_LE(missing, camera_.model == CameraModel::kb4 ? 300 : 0);  // of 625
 }
 
 /// Also for points far outside the field of view: where a strong distortion folds back, there is no pixel.
@@ -211,14 +213,17 @@ TEST_P(CameraTest, what_is_no_number_is_seen_nowhere) {
 /// Pixels far outside the image, too: a ray comes back to its pixel, or there is none.
 TEST_P(CameraTest, what_is_unprojected_is_projected_back_everywhere) {
   Random random(3);
+  int seen = 0;
   for (int i = 0; i < 3000; ++i) {
     const Eigen::Vector2d pixel(random.uniform(-2000, 3000), random.uniform(-2000, 3000));
     const auto ray = camera_.unproject(pixel);
     if (!ray) continue;
+    ++seen;
     const auto again = camera_.project(ray->homogeneous());
     ASSERT_TRUE(again) << pixel.transpose();
     EXPECT_LT((*again - pixel).norm(), 1e-6) << pixel.transpose();
   }
+  EXPECT_GT(seen, 10);
 }
 
 TEST_P(CameraTest, derivatives_of_the_projection_by_the_point) {
@@ -253,6 +258,7 @@ TEST_P(CameraTest, derivatives_of_the_projection_by_the_intrinsics) {
 }
 
 TEST_P(CameraTest, derivatives_of_the_ray_by_the_pixel) {
+  int steep = 0, even = 0;
   for_each_point([&](const Eigen::Vector3d& point) {
     const Eigen::Vector2d pixel = *camera_.project(point);
     const auto unprojected = camera_.unproject_with_jacobian(pixel);
@@ -264,23 +270,30 @@ TEST_P(CameraTest, derivatives_of_the_ray_by_the_pixel) {
     const Eigen::Vector2d step = Eigen::Vector2d::Constant(1e-3);
     const auto numeric =
         differences<2, 2>(pixel, step, [&](const Eigen::Vector2d& at) { return *camera_.unproject(at); });
-    if (by_plane.determinant() > 1e-2 * camera_.fx * camera_.fy) {  // away from the fold, where it is steep
-      EXPECT_LT((unprojected->by_pixel - numeric).norm(), 1e-4 * numeric.norm()) << pixel.transpose();
+    if (by_plane.determinant() <= 1e-2 * camera_.fx * camera_.fy) {  // near the fold
+      ++steep;
+      return;
     }
+    ++even;
+    EXPECT_LT((unprojected->by_pixel - numeric).norm(), 1e-4 * numeric.norm()) << pixel.transpose();
   });
+  EXPECT_GT(even, 10 * steep);
 }
 
 /// No fold within the image: right stays right, down stays down.
 TEST_P(CameraTest, keeps_orientation_all_over_the_image) {
+  int shown = 0;
   for_each_pixel([&](const Eigen::Vector2d& pixel) {
     const auto here = camera_.unproject(pixel);
     const auto right = camera_.unproject(pixel + Eigen::Vector2d(1e-3, 0));
     const auto down = camera_.unproject(pixel + Eigen::Vector2d(0, 1e-3));
     if (!here || !right || !down) return;
+    ++shown;
     Eigen::Matrix2d turn;
     turn << *right - *here, *down - *here;
     EXPECT_GT(turn.determinant(), 0) << pixel.transpose();
   });
+  EXPECT_GE(shown, 300);  // of 625
 }
 
 TEST_P(CameraTest, without_distortion_is_a_pinhole_of_the_same_focal_length) {

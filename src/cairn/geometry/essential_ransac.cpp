@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cairn/geometry/five_point.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/point_pairs.h"
 
 namespace cairn {
@@ -12,7 +13,6 @@ namespace {
 struct EssentialProblem {
   using Model = Eigen::Matrix3d;
   static constexpr std::size_t kSampleSize = 5, kMaxModels = 10;
-  static constexpr double kLimit = 3.841;  // chi-square, one degree of freedom, 95 %
 
   std::span<const Eigen::Vector2d> a, b;
   double sigma = 1;
@@ -20,8 +20,8 @@ struct EssentialProblem {
 
   [[nodiscard]] std::size_t size() const { return a.size(); }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     std::array<Eigen::Vector2d, kSampleSize> in_a, in_b;
     for (std::size_t i = 0; i < kSampleSize; ++i) {
       in_a[i] = a[sample[i]];
@@ -35,7 +35,7 @@ struct EssentialProblem {
   [[nodiscard]] double squared_error(const Model& E, std::size_t i) const {
     return information * sampson_error(E, a[i], b[i]);
   }
-  [[nodiscard]] static double limit(std::size_t /*i*/) { return kLimit; }
+  [[nodiscard]] static double limit(std::size_t /*i*/) { return kInlierLimit1; }
 
   bool refine(std::span<const std::int32_t> inliers, Model& E) const {
     constexpr int kIterations = 5;
@@ -49,7 +49,7 @@ struct EssentialProblem {
   /// lie (Moisan and Stival 2004, sec. 4.2); half of the squared Sampson distance is made up in a.
   [[nodiscard]] double chance() const {
     const PlaneExtent extent = extent_of(b);
-    return 2.0 * extent.diagonal * sigma * std::sqrt(2.0 * kLimit) / extent.area;
+    return 2.0 * extent.diagonal * sigma * std::sqrt(2.0 * kInlierLimit1) / extent.area;
   }
 };
 

@@ -168,15 +168,15 @@ FivePointSolutions solve_five_point(const std::array<Eigen::Vector2d, 5>& a,
   const std::array<BRow, 3> rows{subtract_rows(reduced, 4, 5), subtract_rows(reduced, 6, 7),
                                  subtract_rows(reduced, 8, 9)};
   std::array<double, 10> roots{};
-  const int root_count = real_roots(determinant(rows), roots);
-  for (int i = 0; i < root_count; ++i) {
-    const double z = roots[static_cast<std::size_t>(i)];
+  const std::size_t root_count = real_roots(determinant(rows), roots);
+  for (std::size_t i = 0; i < root_count; ++i) {
+    const double z = roots[i];
     const Eigen::Vector3d xy1 = null_vector(rows, z);
     const Eigen::Matrix<double, 9, 1> e =
         basis * Eigen::Vector4d(xy1.x(), xy1.y(), z * xy1.z(), xy1.z()).eval();
     const double norm = e.norm();
     if (!(norm > 0) || !std::isfinite(norm)) continue;
-    Eigen::Matrix3d& essential = solutions.essential[static_cast<std::size_t>(solutions.count++)];
+    Eigen::Matrix3d& essential = solutions.essential[solutions.count++];
     essential =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(e.data()) * (std::sqrt(2.0) / norm);
   }

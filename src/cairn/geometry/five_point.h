@@ -3,13 +3,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 
 namespace cairn {
 
 /// Up to ten essential matrices E with b_i^T E a_i = 0, Frobenius norm sqrt(2).
 struct FivePointSolutions {
   std::array<Eigen::Matrix3d, 10> essential;
-  int count = 0;
+  std::size_t count = 0;
 };
 
 /// The five-point problem after Nister, PAMI 26(6), 2004, sec. 3: E = x X + y Y + z Z + W over the null space

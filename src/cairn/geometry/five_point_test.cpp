@@ -35,8 +35,8 @@ TEST(FivePoint, finds_the_true_essential_matrix) {
       truth *= std::sqrt(2.0) / truth.norm();
       const FivePointSolutions solutions = solve(scene);
       double best = 1;
-      for (int i = 0; i < solutions.count; ++i)
-        best = std::min(best, distance_up_to_sign(solutions.essential[static_cast<std::size_t>(i)], truth));
+      for (std::size_t i = 0; i < solutions.count; ++i)
+        best = std::min(best, distance_up_to_sign(solutions.essential[i], truth));
       found += best < 1e-4 ? 1 : 0;
     }
     EXPECT_GE(found, 990);
@@ -48,8 +48,8 @@ TEST(FivePoint, gives_essential_matrices_of_the_five_pairs) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const TwoViewScene scene = make_two_view_scene(seed, 5, 5);  // wrong pairs have solutions, too
     const FivePointSolutions solutions = solve(scene);
-    for (int k = 0; k < solutions.count; ++k) {
-      const Eigen::Matrix3d& E = solutions.essential[static_cast<std::size_t>(k)];
+    for (std::size_t k = 0; k < solutions.count; ++k) {
+      const Eigen::Matrix3d& E = solutions.essential[k];
       ++solutions_checked;
       EXPECT_NEAR(E.norm(), std::sqrt(2.0), 1e-12);
       EXPECT_NEAR(E.determinant(), 0, 1e-4);
@@ -60,15 +60,15 @@ TEST(FivePoint, gives_essential_matrices_of_the_five_pairs) {
   EXPECT_GT(solutions_checked, 400);
 }
 
-TEST(FivePoint, has_no_solution_for_one_pair_five_times) {
+TEST(FivePoint, of_one_pair_five_times_has_finite_solutions_at_most) {
   TwoViewScene scene = make_two_view_scene(1, 5);
   for (std::size_t i = 1; i < 5; ++i) {
     scene.a[i] = scene.a[0];
     scene.b[i] = scene.b[0];
   }
   const FivePointSolutions solutions = solve(scene);
-  for (int i = 0; i < solutions.count; ++i)
-    EXPECT_TRUE(solutions.essential[static_cast<std::size_t>(i)].allFinite());
+  EXPECT_LE(solutions.count, 10U);
+  for (std::size_t i = 0; i < solutions.count; ++i) EXPECT_TRUE(solutions.essential.at(i).allFinite());
 }
 
 }  // namespace

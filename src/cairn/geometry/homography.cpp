@@ -9,6 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/decompositions.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/point_pairs.h"
 
 namespace cairn {
@@ -103,15 +104,14 @@ Eigen::Matrix3d solve_four_point(const std::array<Eigen::Vector2d, 4>& a,
 struct HomographyProblem {
   using Model = Eigen::Matrix3d;
   static constexpr std::size_t kSampleSize = 4, kMaxModels = 1;
-  static constexpr double kLimit = 5.991;  // chi-square, two degrees of freedom, 95 %
 
   Points a, b;
   double sigma = 1;
 
   [[nodiscard]] std::size_t size() const { return a.size(); }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     std::array<Eigen::Vector2d, kSampleSize> in_a, in_b;
     for (std::size_t i = 0; i < kSampleSize; ++i) {
       in_a[i] = a[sample[i]];
@@ -125,7 +125,7 @@ struct HomographyProblem {
   [[nodiscard]] double squared_error(const Model& H, std::size_t i) const {
     return homography_sampson_error(H, a[i], b[i]) / (sigma * sigma);
   }
-  [[nodiscard]] static double limit(std::size_t /*i*/) { return kLimit; }
+  [[nodiscard]] static double limit(std::size_t /*i*/) { return kInlierLimit2; }
 
   bool refine(std::span<const std::int32_t> inliers, Model& H) const {
     constexpr int kRepetitions = 2;
@@ -139,7 +139,7 @@ struct HomographyProblem {
 
   /// A wrong b lies in the disc around the place where H has it; half of the squared error is made up in a.
   [[nodiscard]] double chance() const {
-    return std::numbers::pi * 2.0 * kLimit * sigma * sigma / extent_of(b).area;
+    return std::numbers::pi * 2.0 * kInlierLimit2 * sigma * sigma / extent_of(b).area;
   }
 };
 

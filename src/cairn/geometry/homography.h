@@ -36,8 +36,8 @@ namespace cairn {
 /// Vision, sec. 5.3.3). Points in front of both cameras rule out two of them, seldom three.
 [[nodiscard]] std::array<Rigid3, 4> decompose_homography(const Eigen::Matrix3d& H);
 
-/// The homography of two views in RANSAC: samples of four, scored by homography_sampson_error with the 95 %
-/// quantile of chi-square with two degrees of freedom (5.99) as limit. Arguments as those of find_essential.
+/// The homography of two views in RANSAC: samples of four, scored by homography_sampson_error with
+/// kInlierLimit2 as limit. Arguments as those of find_essential.
 [[nodiscard]] RansacResult<Eigen::Matrix3d> find_homography(std::span<const Eigen::Vector2d> a,
                                                             std::span<const Eigen::Vector2d> b, double sigma,
                                                             const RansacOptions& options);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cairn/core/random.h"
+#include "cairn/geometry/inlier_limits.h"
 
 namespace cairn {
 namespace {
@@ -27,19 +28,20 @@ TEST(KernelMoments, are_those_of_chi_square_without_kernel_and_limit) {
 /// A chi-square variable with n degrees of freedom below its 95 % quantile q has the mean n P(n + 2, q) /
 /// 0.95.
 TEST(KernelMoments, know_what_the_limit_cuts_off) {
-  const KernelMoments two = kernel_moments(RobustKernel::none, 1, 2, 5.991);
+  const KernelMoments two = kernel_moments(RobustKernel::none, 1, 2, kInlierLimit2);
   EXPECT_NEAR(two.share, 0.95, 1e-4);
-  EXPECT_NEAR(two.squares, 2 * (1 - 0.05 * (1 + 5.991 / 2)) / 0.95, 1e-3);
-  const KernelMoments three = kernel_moments(RobustKernel::none, 1, 3, 7.815);
+  EXPECT_NEAR(two.squares, 2 * (1 - 0.05 * (1 + kInlierLimit2 / 2)) / 0.95, 1e-3);
+  const KernelMoments three = kernel_moments(RobustKernel::none, 1, 3, kInlierLimit3);
   EXPECT_NEAR(three.share, 0.95, 1e-4);
   // P(5, q) = P(3, q) - (q / 2)^1.5 exp(-q / 2) / Gamma(2.5)
-  const double five = 0.95 - std::pow(7.815 / 2, 1.5) * std::exp(-7.815 / 2) / std::tgamma(2.5);
+  const double five =
+      0.95 - std::pow(kInlierLimit3 / 2, 1.5) * std::exp(-kInlierLimit3 / 2) / std::tgamma(2.5);
   EXPECT_NEAR(three.squares, 3 * five / 0.95, 1e-3);
 }
 
 TEST(KernelMoments, are_the_means_over_random_errors) {
   constexpr int kErrors = 400'000;
-  constexpr double kScale = 1.5, kLimit = 7.815, kStd = 0.95;
+  constexpr double kScale = 1.5, kLimit = kInlierLimit3, kStd = 0.95;
   for (const auto kernel : {RobustKernel::huber, RobustKernel::cauchy, RobustKernel::geman_mcclure}) {
     const KernelMoments moments = kernel_moments(kernel, kScale, 3, kLimit);
     Random random(1);

@@ -80,7 +80,7 @@ bool on_one_line(const Points& p) {
 
 }  // namespace
 
-int solve_quartic(const std::array<double, 5>& c, std::array<double, 4>& roots) {
+std::size_t solve_quartic(const std::array<double, 5>& c, std::array<double, 4>& roots) {
   if (!(std::abs(c[4]) > 1e-14)) return 0;
   // Durand-Kerner: all four roots at once, from points on a circle; 4 * 20 complex steps are 1 microsecond.
   using Complex = std::complex<double>;
@@ -106,10 +106,10 @@ int solve_quartic(const std::array<double, 5>& c, std::array<double, 4>& roots) 
     }
     if (!(largest_step > 1e-13 * radius)) break;
   }
-  int count = 0;
+  std::size_t count = 0;
   for (const Complex& root : z) {
     if (std::abs(root.imag()) > 1e-4 * (1 + std::abs(root.real())) || !std::isfinite(root.real())) continue;
-    roots[static_cast<std::size_t>(count++)] = root.real();
+    roots[count++] = root.real();
   }
   return count;
 }
@@ -119,10 +119,10 @@ P3pSolutions solve_p3p(const Points& points_in_world, const Points& rays) {
   if (on_one_line(points_in_world)) return solutions;
   const Triangle t = triangle_of(points_in_world, rays);
   std::array<double, 4> roots{};
-  const int root_count = solve_quartic(grunert_quartic(t), roots);
+  const std::size_t root_count = solve_quartic(grunert_quartic(t), roots);
   const double difference = (t.side_squared.x() - t.side_squared.z()) / t.side_squared.y();
-  for (int i = 0; i < root_count; ++i) {
-    const double v = roots[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < root_count; ++i) {
+    const double v = roots[i];
     const double denominator = 2 * (t.cosine.z() - v * t.cosine.x());
     const double s1_squared = t.side_squared.y() / (1 + v * v - 2 * v * t.cosine.y());
     if (!(v > 0) || std::abs(denominator) < 1e-12 || !(s1_squared > 0)) continue;
@@ -132,8 +132,7 @@ P3pSolutions solve_p3p(const Points& points_in_world, const Points& rays) {
     Eigen::Vector3d distances = std::sqrt(s1_squared) * Eigen::Vector3d(1, u, v);
     if (!polish_distances(t, distances)) continue;
     const Points in_camera{rays[0] * distances.x(), rays[1] * distances.y(), rays[2] * distances.z()};
-    solutions.camera_from_world[static_cast<std::size_t>(solutions.count++)] =
-        align_triangles(points_in_world, in_camera);
+    solutions.camera_from_world[solutions.count++] = align_triangles(points_in_world, in_camera);
   }
   return solutions;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "cairn/geometry/rigid3.h"
 
@@ -10,7 +11,7 @@ namespace cairn {
 /// Up to four poses camera_from_world that see three points in the directions of three rays.
 struct P3pSolutions {
   std::array<Rigid3, 4> camera_from_world;
-  int count = 0;
+  std::size_t count = 0;
 };
 
 /// The perspective-three-point problem after Grunert 1841, in the form of Haralick et al., IJCV 13(3), 1994:
@@ -20,6 +21,7 @@ struct P3pSolutions {
                                      const std::array<Eigen::Vector3d, 3>& rays);
 
 /// Real roots of c[4] x^4 + ... + c[0], each polished by Newton steps; returns their number.
-[[nodiscard]] int solve_quartic(const std::array<double, 5>& coefficients, std::array<double, 4>& roots);
+[[nodiscard]] std::size_t solve_quartic(const std::array<double, 5>& coefficients,
+                                        std::array<double, 4>& roots);
 
 }  // namespace cairn

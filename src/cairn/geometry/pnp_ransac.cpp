@@ -33,8 +33,8 @@ struct PnpProblem {
 
   [[nodiscard]] std::size_t size() const { return points.size(); }
 
-  int solve(const std::array<std::uint32_t, kSampleSize>& sample,
-            std::array<Model, kMaxModels>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, kSampleSize>& sample,
+                    std::array<Model, kMaxModels>& models) const {
     std::array<Eigen::Vector3d, kSampleSize> in_world, rays;
     for (std::size_t i = 0; i < kSampleSize; ++i) {
       const Observation& observation = seen[sample[i]];
@@ -42,8 +42,7 @@ struct PnpProblem {
       rays[i] = rig.point_at(observation.u, observation.v, 1.0).normalized();
     }
     const P3pSolutions solutions = solve_p3p(in_world, rays);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(solutions.count); ++i)
-      models[i] = pose_of(solutions.camera_from_world[i]);
+    for (std::size_t i = 0; i < solutions.count; ++i) models[i] = pose_of(solutions.camera_from_world[i]);
     return solutions.count;
   }
 

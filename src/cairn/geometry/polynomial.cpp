@@ -78,7 +78,7 @@ std::size_t roots_in_unit_interval(const Polynomial& p, std::span<double> roots)
 
 }  // namespace
 
-int real_roots(std::span<const double> coefficients, std::span<double> roots) {
+std::size_t real_roots(std::span<const double> coefficients, std::span<double> roots) {
   require(coefficients.size() >= 2 && coefficients.size() <= kMaxDegree + 1,
           "a polynomial of degree 1 to 10");
   require(roots.size() + 1 >= coefficients.size(), "room for all roots");
@@ -93,7 +93,7 @@ int real_roots(std::span<const double> coefficients, std::span<double> roots) {
   const std::size_t inverse_count = roots_in_unit_interval(reversed, inverse);
   for (std::size_t i = 0; i < inverse_count && count < p.degree; ++i)
     if (std::abs(inverse[i]) < 1.0 && inverse[i] != 0) roots[count++] = 1.0 / inverse[i];
-  return static_cast<int>(count);
+  return count;
 }
 
 }  // namespace cairn

@@ -17,6 +17,6 @@ inline constexpr std::size_t kMaxDegree = 10;
 /// derivative in the same way. |x| <= 1 is searched as it is, the rest as 1/x on the polynomial with its
 /// coefficients reversed, so all intervals are bounded. `coefficients` has 2 to kMaxDegree + 1 elements,
 /// `roots` room for one less.
-[[nodiscard]] int real_roots(std::span<const double> coefficients, std::span<double> roots);
+[[nodiscard]] std::size_t real_roots(std::span<const double> coefficients, std::span<double> roots);
 
 }  // namespace cairn

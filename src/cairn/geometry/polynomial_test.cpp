@@ -33,7 +33,7 @@ std::vector<double> polynomial_with(const std::vector<double>& roots, int comple
 
 std::vector<double> sorted_roots(const std::vector<double>& coefficients) {
   std::vector<double> roots(kMaxDegree);
-  roots.resize(static_cast<std::size_t>(real_roots(coefficients, roots)));
+  roots.resize(real_roots(coefficients, roots));
   std::sort(roots.begin(), roots.end());
   return roots;
 }
@@ -63,9 +63,9 @@ TEST(Polynomial, finds_huge_and_tiny_roots) {
 
 TEST(Polynomial, takes_vanishing_leading_coefficients) {
   std::array<double, 3> found{};
-  ASSERT_EQ(real_roots(std::array{-0.5, 1.0, 0.0, 0.0}, found), 1);
+  ASSERT_EQ(real_roots(std::array{-0.5, 1.0, 0.0, 0.0}, found), 1U);
   EXPECT_DOUBLE_EQ(found[0], 0.5);
-  EXPECT_EQ(real_roots(std::array{1.0, 0.0, 0.0, 0.0}, found), 0);
+  EXPECT_EQ(real_roots(std::array{1.0, 0.0, 0.0, 0.0}, found), 0U);
   EXPECT_THROW((void)real_roots(std::array{1.0}, found), PreconditionError);
 }
 

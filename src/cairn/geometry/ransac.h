@@ -89,7 +89,7 @@ template <std::size_t N>
 ///     using Model;                            what is estimated, ready for squared_error
 ///     kSampleSize, kMaxModels                 data in a sample, models that one can give
 ///     size()                                  number of data
-///     solve(sample, models) -> int            the models of a minimal sample; returns how many
+///     solve(sample, models) -> size_t         the models of a minimal sample; returns how many
 ///     squared_error(model, i) -> double       of a datum, in variances; infinite where it cannot be
 ///     limit(i) -> double                      of squared_error of an inlier: a chi-square quantile
 ///     refine(inliers, model) -> bool          least squares over inliers from model; false: undetermined
@@ -148,9 +148,9 @@ class Ransac {
 
   void try_sample(const std::array<std::uint32_t, Problem::kSampleSize>& sample) {
     std::array<Model, Problem::kMaxModels> models;
-    const int count = problem_.solve(sample, models);
+    const std::size_t count = problem_.solve(sample, models);
     bool better = false;
-    for (int i = 0; i < count; ++i) better = accept(models[static_cast<std::size_t>(i)]) || better;
+    for (std::size_t i = 0; i < count; ++i) better = accept(models[i]) || better;
     if (!better) return;
     optimise_locally();
     needed_ = samples_needed(best_.inliers, problem_.size(), Problem::kSampleSize, options_);

@@ -24,7 +24,7 @@ struct LineProblem {
   std::vector<double> x, y;
 
   [[nodiscard]] std::size_t size() const { return x.size(); }
-  int solve(const std::array<std::uint32_t, 2>& sample, std::array<Model, 1>& models) const {
+  std::size_t solve(const std::array<std::uint32_t, 2>& sample, std::array<Model, 1>& models) const {
     const double dx = x[sample[1]] - x[sample[0]];
     if (dx == 0) return 0;
     const double slope = (y[sample[1]] - y[sample[0]]) / dx;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cairn/geometry/camera.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/rigid3.h"
 
 namespace cairn {
@@ -71,9 +72,10 @@ struct Rig {
   return du * du + dv * dv + dd * dd;
 }
 
-/// The 95 % quantile of squared_error for a correct observation: chi-square with 3 or 2 degrees of freedom.
+/// Returns the squared_error that 95 % of the correct observations like `seen` stay below: chi-square with 3
+/// degrees of freedom if it has a disparity, else with 2.
 [[nodiscard]] inline double squared_error_limit(const Observation& seen) {
-  return seen.has_disparity() ? 7.815 : 5.991;
+  return seen.has_disparity() ? kInlierLimit3 : kInlierLimit2;
 }
 
 }  // namespace cairn

@@ -106,8 +106,4 @@ RgbImage ImageRemap::operator()(const RgbImage& image, const Executor& executor)
   return remap(image, executor);
 }
 
-ImageRemap undistortion(const Camera& camera, const Executor& executor) {
-  return {camera, camera.undistorted(), Eigen::Quaterniond::Identity(), executor};
-}
-
 }  // namespace cairn

@@ -44,7 +44,4 @@ class ImageRemap {
   Image<Origin> origins_;
 };
 
-/// As a pinhole camera of the same focal lengths and centre would have taken them.
-[[nodiscard]] ImageRemap undistortion(const Camera& camera, const Executor& executor = Executor());
-
 }  // namespace cairn

@@ -59,6 +59,10 @@ Comparison compare(const ImageRemap& remap, const GrayImage& found, const GrayIm
   return comparison;
 }
 
+ImageRemap undistortion(const Camera& camera, const Executor& executor = Executor()) {
+  return {camera, camera.undistorted(), kStraight, executor};
+}
+
 TEST(ImageRemap, shows_what_the_target_would_have_seen) {
   const Eigen::Quaterniond source_from_target = rotation_exp({0.02, -0.05, 0.1});
   for (const Camera& source : {kPlain, kRadtan, kFisheye}) {

@@ -152,8 +152,7 @@ TEST(Retrieval, keyframes_near_a_pose_look_the_same_way) {
   const WorldFromCamera pose = World::pose_at(30);
   const auto near = keyframes_near(*place.map, pose, 4);
   ASSERT_EQ(near.size(), 4U);
-  for (const KeyframeId id : near)
-    EXPECT_NEAR(place.map->poses()[static_cast<std::size_t>(id.value)].translation.x(), 30, 4);
+  for (const KeyframeId id : near) EXPECT_NEAR(place.map->poses()[id.index()].translation.x(), 30, 4);
   EXPECT_TRUE(keyframes_near(*place.map, World::pose_at(30, 0, 3.1), 4).empty());  // the other way
 }
 

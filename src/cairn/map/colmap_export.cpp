@@ -44,7 +44,7 @@ void require_one_world(const fs::path& folder, const MapInfo& info) {
 void require_frames(const fs::path& folder, const MapInfo& info, const Sequence& sequence) {
   for (std::size_t i = 0; i < info.keyframes.size(); ++i) {
     const auto& [frame, stamp_ns, part, checksum] = info.keyframes[i];
-    const auto position = static_cast<std::size_t>(frame.value);
+    const auto position = frame.index();
     if (frame.valid() && position < sequence.frames.size() && sequence.frames[position].stamp_ns == stamp_ns)
       continue;
     throw InputError({(folder / kMapInfoFile).string(), 0,
@@ -169,7 +169,7 @@ void Exporter::add_feature(const Observation& seen, LandmarkId landmark, const R
 }
 
 ExportedKeyframe Exporter::keyframe(std::size_t number) const {
-  const FrameFiles& files = sequence_.frames[static_cast<std::size_t>(info_.keyframes[number].frame.value)];
+  const FrameFiles& files = sequence_.frames[info_.keyframes[number].frame.index()];
   const FrameFile frame = read_frame_file(folder_, info_, {static_cast<std::int32_t>(number)});
   const RgbImage image = read_rgb(files.color);
   ExportedKeyframe exported;
@@ -208,7 +208,7 @@ ColmapPoint Exporter::point(std::size_t number, const StoredLandmark& landmark, 
   double sum_px = 0;
   for (std::uint32_t k = 0; k < landmark.sightings; ++k) {
     const Sighting sighting = sightings.next()->sighting;
-    const auto keyframe = static_cast<std::size_t>(sighting.keyframe.value);
+    const auto keyframe = sighting.keyframe.index();
     if (!features.has(sighting)) fail_contradiction(number, sighting);
     const RecordedFeature seen = features.at(sighting);
     if (seen.landmark != static_cast<std::int32_t>(number)) fail_contradiction(number, sighting);

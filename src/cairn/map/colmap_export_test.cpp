@@ -169,6 +169,7 @@ TEST_F(ColmapExport, images_beside_the_sequence_have_a_root_above_it) {
 TEST_F(ColmapExport, points_have_the_colours_of_the_images) {
   write_images(pattern(640, 480));
   const Model model = exported(one_world());
+  ASSERT_FALSE(model.points.empty());
   for (const ModelPoint& point : model.points) {
     std::vector<double> reds, greens;
     for (std::size_t k = 0; k < point.track.size(); k += 2) {
@@ -258,6 +259,7 @@ TEST_F(ColmapExport, a_raw_pair_has_its_own_cameras_and_their_poses) {
     EXPECT_EQ(model.cameras[1].model, kind == CameraModel::kb4 ? "OPENCV_FISHEYE" : "OPENCV");
     EXPECT_DOUBLE_EQ(model.cameras[1].parameters[0], right.fx);
     expect_linked(model);
+    EXPECT_FALSE(model.points.empty());
     for (const ModelPoint& point : model.points) {
       EXPECT_EQ(point.track.size(), 12U);
       EXPECT_LT(point.error, 1e-3);  // the landmarks lie where both raw images show them

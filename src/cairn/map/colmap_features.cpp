@@ -25,7 +25,7 @@ void RecordedFeatures::add(std::span<const RecordedFeature> features) {
 }
 
 bool RecordedFeatures::has(const Sighting& sighting) const {
-  const auto keyframe = static_cast<std::size_t>(sighting.keyframe.value);
+  const auto keyframe = sighting.keyframe.index();
   return sighting.keyframe.valid() && keyframe + 1 < begins_.size() && sighting.feature >= 0 &&
          static_cast<std::uint64_t>(sighting.feature) < begins_[keyframe + 1] - begins_[keyframe];
 }
@@ -34,8 +34,8 @@ RecordedFeature RecordedFeatures::at(const Sighting& sighting) {
   require(has(sighting), "a feature of a keyframe that was added");
   if (!is_flushed_ && std::fflush(file_.get()) != 0) fail_writing(path_, "write the file", errno);
   is_flushed_ = true;
-  const std::uint64_t number = begins_[static_cast<std::size_t>(sighting.keyframe.value)] +
-                               static_cast<std::uint64_t>(sighting.feature);
+  const std::uint64_t number =
+      begins_[sighting.keyframe.index()] + static_cast<std::uint64_t>(sighting.feature);
   RecordedFeature feature;
   const auto got =
       ::pread(::fileno(file_.get()), &feature, sizeof feature, static_cast<off_t>(number * sizeof feature));

@@ -52,7 +52,7 @@ Keypoint get_keypoint(const Observation& seen, BinaryReader& reader) {
 
 /// The number of features; what the header says is as announced.
 std::uint32_t get_header(const MapInfo& info, KeyframeId number, BinaryReader& reader) {
-  const KeyframeEntry& entry = info.keyframes[static_cast<std::size_t>(number.value)];
+  const KeyframeEntry& entry = info.keyframes[number.index()];
   reader.expect_checksum(entry.checksum);
   const auto found_number = reader.get<std::int32_t>(), frame = reader.get<std::int32_t>();
   if (found_number != number.value || frame != entry.frame.value)
@@ -113,7 +113,7 @@ std::string format_frame_file(KeyframeId number, const ObservedFrame& observed,
 }
 
 FrameFile read_frame_file(const std::filesystem::path& folder, const MapInfo& info, KeyframeId number) {
-  const KeyframeEntry& entry = info.keyframes[static_cast<std::size_t>(number.value)];
+  const KeyframeEntry& entry = info.keyframes[number.index()];
   BinaryReader reader(folder / frame_file_name(number, info.descriptor.name), kKind);
   const std::uint32_t count = get_header(info, number, reader);
   FrameFile file;

@@ -72,7 +72,7 @@ std::optional<SightingStream::Row> SightingStream::next() {
   if (row_ == info_.sightings) return {};
   const KeyframeId keyframe{reader_.get<std::int32_t>()};
   const std::int32_t feature = reader_.get<std::int32_t>();
-  if (!keyframe.valid() || static_cast<std::size_t>(keyframe.value) >= info_.keyframes.size())
+  if (!keyframe.valid() || keyframe.index() >= info_.keyframes.size())
     reader_.fail(fmt::format("a keyframe below {} in row {}", info_.keyframes.size(), row_),
                  fmt::format("{}", keyframe.value));
   // Size and sigma, which frames/ has, too, come before the descriptor.

@@ -91,7 +91,7 @@ class Map {
  private:
   template <class AnyId>
   [[nodiscard]] static std::size_t index(AnyId id) {
-    return static_cast<std::size_t>(id.value);
+    return id.index();
   }
   [[nodiscard]] Keyframe& keyframe(KeyframeId id) { return keyframes_[index(id)]; }
   [[nodiscard]] Landmark& landmark(LandmarkId id) { return landmarks_[index(id)]; }

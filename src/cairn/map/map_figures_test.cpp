@@ -49,7 +49,7 @@ TEST(MapFigures, has_each_indicator_in_the_order_of_the_table) {
   EXPECT_EQ(figures.without_covariance, 0U);
   double largest_z = 0, largest = 0;
   for (const LandmarkId id : map.landmark_ids()) {
-    const Eigen::Matrix3d& covariance = covariances[static_cast<std::size_t>(id.value)];
+    const Eigen::Matrix3d& covariance = covariances[id.index()];
     largest_z = std::max(largest_z, std::sqrt(covariance(2, 2)));
     largest = std::max(largest, largest_std(covariance));
   }

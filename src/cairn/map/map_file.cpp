@@ -25,7 +25,7 @@ template <class AnyId>
 std::vector<AnyId> numbers_of(const std::vector<AnyId>& selected, std::size_t count) {
   std::vector<AnyId> numbers(count);
   for (std::size_t i = 0; i < selected.size(); ++i)
-    numbers[static_cast<std::size_t>(selected[i].value)] = {static_cast<std::int32_t>(i)};
+    numbers[selected[i].index()] = {static_cast<std::int32_t>(i)};
   return numbers;
 }
 
@@ -52,8 +52,7 @@ MapHeader header_of(const Map& map) {
 std::vector<LandmarkId> renumbered(const std::vector<LandmarkId>& landmarks, const Selection& selection) {
   std::vector<LandmarkId> numbers(landmarks.size());
   for (std::size_t i = 0; i < landmarks.size(); ++i)
-    if (landmarks[i].valid())
-      numbers[i] = selection.landmark_numbers[static_cast<std::size_t>(landmarks[i].value)];
+    if (landmarks[i].valid()) numbers[i] = selection.landmark_numbers[landmarks[i].index()];
   return numbers;
 }
 
@@ -78,8 +77,7 @@ FinishedLandmark finished(const Map& map, const Landmark& landmark, const Eigen:
     views.push_back(stored_view(keyframe, feature));
     result.keypoints.push_back(features.keypoints[feature]);
     std::memcpy(result.descriptors.row(i), features.descriptors.row(feature), kind.bytes);
-    result.sightings[i].keyframe =
-        selection.keyframe_numbers[static_cast<std::size_t>(landmark.sightings[i].keyframe.value)];
+    result.sightings[i].keyframe = selection.keyframe_numbers[landmark.sightings[i].keyframe.index()];
   }
   result.indicators = indicators_of(map.rig(), landmark.point_in_world, views);
   return result;
@@ -101,7 +99,7 @@ void write_map(const std::filesystem::path& folder, const Map& map,
                      WorldFromCamera(map[id].world_from_camera), map[id].part);
   for (const LandmarkId id : selection.landmarks) {
     const Eigen::Matrix3d covariance =
-        covariances.empty() ? Eigen::Matrix3d::Zero() : covariances[static_cast<std::size_t>(id.value)];
+        covariances.empty() ? Eigen::Matrix3d::Zero() : covariances[id.index()];
     writer.add_landmark(finished(map, map[id], covariance, selection, header.descriptor));
   }
   writer.finish();

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cairn/core/id.h"
@@ -13,6 +15,9 @@
 #include "cairn/map/map_header.h"
 
 namespace cairn {
+
+/// Says in map.json that the file is one.
+constexpr std::string_view kMapFormat = "cairn keyframe map";
 
 /// Version of the layout of all files of a map.
 constexpr std::uint32_t kMapVersion = 3;

@@ -61,7 +61,7 @@ MapFiles read_files(const fs::path& folder) {
 /// The feature of a sighting shows this landmark, and looks as Descriptor.bin says.
 void check_sighting(const MapFiles& files, std::size_t landmark, std::size_t row) {
   const Sighting& sighting = files.sightings.sightings[row];
-  const FrameFile& frame = files.frames[static_cast<std::size_t>(sighting.keyframe.value)];
+  const FrameFile& frame = files.frames[sighting.keyframe.index()];
   const auto feature = static_cast<std::size_t>(sighting.feature);
   const bool shows = sighting.feature >= 0 && feature < frame.landmarks.size() &&
                      frame.landmarks[feature].value == static_cast<std::int64_t>(landmark);
@@ -107,7 +107,7 @@ std::vector<KeyframeId> choose_parents(const MapFiles& files) {
     std::vector<int> shared(i, 0);
     for (const LandmarkId id : files.frames[i].landmarks) {
       if (!id.valid()) continue;
-      auto& earlier = shown_by[static_cast<std::size_t>(id.value)];
+      auto& earlier = shown_by[id.index()];
       for (const std::size_t keyframe : earlier) ++shared[keyframe];
       earlier.push_back(i);
     }

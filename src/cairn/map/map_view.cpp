@@ -83,7 +83,7 @@ MapView::MapView(const std::filesystem::path& folder)
 MapView::~MapView() = default;
 
 bool MapView::in_main_part(KeyframeId id) const {
-  return info_.keyframes[static_cast<std::size_t>(id.value)].part == main_part_;
+  return info_.keyframes[id.index()].part == main_part_;
 }
 
 StoredLandmark MapView::landmark(LandmarkId id) const {
@@ -103,10 +103,10 @@ StoredLandmark MapView::landmark(LandmarkId id) const {
 }
 
 std::shared_ptr<const ViewedKeyframe> MapView::keyframe(KeyframeId id) const {
-  require(id.valid() && static_cast<std::size_t>(id.value) < poses_.size(), "the keyframe is in the map");
+  require(id.valid() && id.index() < poses_.size(), "the keyframe is in the map");
   if (auto found = cache_->find(id)) return found;
-  auto read = std::make_shared<const ViewedKeyframe>(
-      viewed(read_frame_file(folder_, info_, id), poses_[static_cast<std::size_t>(id.value)]));
+  auto read =
+      std::make_shared<const ViewedKeyframe>(viewed(read_frame_file(folder_, info_, id), poses_[id.index()]));
   cache_->add(id, read);
   return read;
 }

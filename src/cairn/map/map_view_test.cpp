@@ -26,8 +26,7 @@ TEST(MapView, has_what_the_whole_reader_has) {
   for (const Landmark& landmark : map.landmarks()) {
     const StoredLandmark stored = view.landmark(landmark.id);
     EXPECT_EQ(stored.point_in_world, landmark.point_in_world);
-    EXPECT_EQ(stored.covariance,
-              read_covariances(folder.path())[static_cast<std::size_t>(landmark.id.value)]);
+    EXPECT_EQ(stored.covariance, read_covariances(folder.path())[landmark.id.index()]);
     std::vector<std::int32_t> keyframes;
     for (const Sighting& sighting : landmark.sightings) keyframes.push_back(sighting.keyframe.value);
     const auto found = view.places().keyframes(stored.first_row, stored.sightings);

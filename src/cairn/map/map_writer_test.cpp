@@ -165,8 +165,8 @@ TEST(MapWriter, what_is_true_of_the_whole_map_comes_back) {
   EXPECT_EQ(map.header().world, header().world);
   EXPECT_EQ(map.header().origin, header().origin);
   EXPECT_EQ(map.header().settings, header().settings);
-  EXPECT_EQ(map.keyframes().size(), static_cast<std::size_t>(kFrames));
-  EXPECT_EQ(map.landmarks().size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(std::ssize(map.keyframes()), kFrames);
+  EXPECT_EQ(std::ssize(map.landmarks()), kFrames);
   write_map(folder.path() / "again", map, read_covariances(folder.path() / "map"));
   fs::remove(folder.path() / "again/.cairn");
   EXPECT_EQ(contents_of(folder.path() / "again"), contents_of(folder.path() / "map"));

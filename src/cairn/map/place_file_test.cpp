@@ -59,7 +59,7 @@ TEST(PlaceFile, finds_landmarks_by_their_look) {
   const Places places(folder.path() / "map", kLandmarks, 6);
   const PlaceFile file(folder.path() / "map", read_map_info(folder.path() / "map/map.json"));
   const auto found = file.find(places.looks, 0.45, 2);
-  ASSERT_EQ(found.size(), static_cast<std::size_t>(kLandmarks));
+  ASSERT_EQ(std::ssize(found), kLandmarks);
   int right = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t k = 0; k + 1 < found[i].size(); ++k)

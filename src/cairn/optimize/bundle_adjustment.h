@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/geometry/robust_kernel.h"
 
@@ -29,8 +30,8 @@ struct BundleProblem {
 
 struct BundleOptions {
   RobustKernel kernel = RobustKernel::huber;
-  double kernel_scale = 2.448;  ///< standard deviations: the root of the 95 % limit of (u, v)
-  int max_iterations = 10;      ///< steps tried; a window near its minimum takes 3 to 5
+  double kernel_scale = kInlierScale2;  ///< standard deviations
+  int max_iterations = 10;              ///< steps tried; a window near its minimum takes 3 to 5
   /// Converged when a step lowers the cost by less than this share: 1e-4 of it moves the result by far less
   /// than its own standard deviation.
   double converged_relative_cost = 1e-4;

@@ -158,6 +158,8 @@ TEST_F(EurocTest, truth_of_a_sensor_is_moved_to_the_body) {
     truth += truth_line(stamp(i), world_from_left_at(i) * kBodyFromLeft.inverse() * body_from_prism);
   put("mav0/state_groundtruth_estimate0/data.csv", truth);
   const Trajectory after = *open_sequence(folder_).truth;
+  ASSERT_EQ(std::ssize(before), kFrames);
+  ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) {
     EXPECT_LT(left_perturbation(before[i].world_from_camera, after[i].world_from_camera).norm(), 1e-9);
   }

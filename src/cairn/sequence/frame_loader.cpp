@@ -44,9 +44,8 @@ struct FrameLoader::Impl {
   CameraView left, right;
 
   [[nodiscard]] const FrameFiles& files(FrameId id) const {
-    require(id.valid() && static_cast<std::size_t>(id.value) < sequence->frames.size(),
-            "a frame of the sequence");
-    return sequence->frames[static_cast<std::size_t>(id.value)];
+    require(id.valid() && id.index() < sequence->frames.size(), "a frame of the sequence");
+    return sequence->frames[id.index()];
   }
 };
 

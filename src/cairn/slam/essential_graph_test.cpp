@@ -59,6 +59,7 @@ TEST(EssentialGraph, sharing_less_makes_no_edge) {
 
 TEST(EssentialGraph, its_edges_say_what_the_map_says) {
   const PoseGraph graph = essential_graph(five_keyframes(), 0, {});
+  EXPECT_FALSE(graph.edges.empty());
   for (const PoseGraph::Edge& edge : graph.edges) {
     const Rigid3 expected = place(static_cast<double>(edge.a)).inverse() * place(static_cast<double>(edge.b));
     EXPECT_LT(motion_norm(expected.inverse() * edge.a_from_b), 1e-12);

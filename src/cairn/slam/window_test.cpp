@@ -71,6 +71,7 @@ TEST(Window, has_all_that_its_free_keyframes_show) {
 TEST(Window, is_what_the_map_says) {
   const test::MapMaker maker = along_a_wall();
   const Window window = window_around(maker.map, {7}, small_window());
+  EXPECT_FALSE(window.problem.observations.empty());
   for (const BundleObservation& observation : window.problem.observations) {
     const Rigid3& camera = window.problem.camera_from_world[static_cast<std::size_t>(observation.camera)];
     const Eigen::Vector3d& point =

@@ -12,20 +12,21 @@
 
 namespace cairn {
 
-/// Why a landmark is not worth keeping; in the order in which they are asked for.
+/// Names what a landmark falls to, in the order in which failed_rule asks.
 enum class CleaningRule { frames, position_std, rms, ray_angle, depth, distance, lateral, view_angle };
 constexpr std::size_t kCleaningRules = 8;
 
 /// Returns the name of the rule, for reports: "frames", "position_std", ..., "view_angle".
 [[nodiscard]] std::string_view to_string(CleaningRule rule);
 
-/// Returns the first rule that the landmark falls to, or nothing if it holds against all. `covariance` is the
-/// landmark's own (SurveyLandmark::own_covariance), square metres.
+/// Returns the first rule that the landmark falls to, or nullopt if it holds against all; what is not a
+/// number falls. `covariance` is the landmark's own, without what the poses' errors add
+/// (SurveyLandmark::own_covariance), square metres.
 [[nodiscard]] std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
                                                       const Eigen::Matrix3d& covariance,
                                                       const CleaningOptions& options);
 
-/// How many landmarks fell to each rule.
+/// Holds how many landmarks fell to each rule, by its position in CleaningRule.
 using CleaningCounts = std::array<std::int64_t, kCleaningRules>;
 
 }  // namespace cairn

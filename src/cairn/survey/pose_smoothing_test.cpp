@@ -196,7 +196,7 @@ TEST(CamerasAround, are_as_they_were_without_motions) {
   FrameBuffer frames = noisy_drive({.given_m = 0.04});
   for (int i = 0; i < kFrames; ++i) frames[KeyframeId{i}].motion.reset();
   const auto cameras = cameras_around(frames, {30}, kReach);
-  ASSERT_EQ(cameras.size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(std::ssize(cameras), kFrames);
   for (int i = 0; i < kFrames; ++i)
     EXPECT_EQ(distance(cameras[static_cast<std::size_t>(i)], frames[KeyframeId{i}].camera_from_world), 0);
 }
@@ -205,7 +205,7 @@ TEST(CamerasAround, are_those_of_a_buffer_that_begins_later) {
   FrameBuffer frames = noisy_drive({.given_m = 0.04, .motion_m = 0.002});
   for (int i = 0; i < 20; ++i) frames.pop_front();
   const auto cameras = cameras_around(frames, {30}, kReach);
-  ASSERT_EQ(cameras.size(), static_cast<std::size_t>(kFrames - 20));
+  ASSERT_EQ(std::ssize(cameras), kFrames - 20);
   EXPECT_EQ(distance(cameras[10], frames[KeyframeId{30}].camera_from_world), 0);
 }
 

@@ -129,7 +129,7 @@ class SurveyPipeline {
 
   void observe_again(std::vector<SurveyFrame>& frames) const {
     executor_.for_each(frames.size(), [&](std::size_t i) {
-      const auto index = static_cast<std::size_t>(frames[i].observed.frame.value);
+      const auto index = frames[i].observed.frame.index();
       Arrival arrival = frontend_(index);
       if (arrival.failure) std::rethrow_exception(arrival.failure);
       if (!frames[i].kept.empty() && frames[i].kept.back() >= arrival.observed.observations.size())

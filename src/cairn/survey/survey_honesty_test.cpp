@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cairn/core/random.h"
+#include "cairn/geometry/inlier_limits.h"
 #include "cairn/sequence/simulate_street.h"
 #include "cairn/survey/landmarks.h"
 #include "cairn/survey/surveyor.h"
@@ -136,7 +137,7 @@ class StreetMapper {
     std::vector<SurfacePoint> points;
     for (const Sighting& sighting : landmark.sightings) {
       const auto feature = frames_[sighting.keyframe].kept[static_cast<std::size_t>(sighting.feature)];
-      const auto& shown = street()[static_cast<std::size_t>(sighting.keyframe.value)].shown[feature];
+      const auto& shown = street()[sighting.keyframe.index()].shown[feature];
       if (!shown) return std::nullopt;
       points.push_back(*shown);
       for (int k = 0; k < 3; ++k)
@@ -192,7 +193,7 @@ class StreetMapper {
 };
 
 Honesty measure(double wrong_share) {
-  constexpr double kChiSquare95 = 7.815, kNear = 20;
+  constexpr double kNear = 20;
   constexpr double kSharp = 0.3;  // a truth that is itself less sure says nothing of the covariance
   StreetMapper mapper(wrong_share);
   Honesty honesty;
@@ -209,7 +210,7 @@ Honesty measure(double wrong_share) {
     if (truth->spread_m > kSharp * std::sqrt(landmark.covariance().trace())) continue;
     const double squared = error.dot(landmark.covariance().inverse() * error);
     nees += squared / 3;
-    inside += squared <= kChiSquare95 ? 1 : 0;
+    inside += squared <= kInlierLimit3 ? 1 : 0;
     ++honesty.judged;
   }
   const auto count = static_cast<double>(honesty.judged);

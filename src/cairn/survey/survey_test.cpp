@@ -37,18 +37,18 @@ TEST_F(SurveyTest, landmarks_lie_on_what_was_seen) {
   EXPECT_EQ(result.counts.frames, kFrames);
   const Map map = read_map(folder("map"));
   const auto covariances = read_covariances(folder("map"));
-  ASSERT_EQ(map.landmarks().size(), static_cast<std::size_t>(result.counts.landmarks));
-  EXPECT_EQ(map.keyframes().size(), static_cast<std::size_t>(kFrames));
+  ASSERT_EQ(std::ssize(map.landmarks()), result.counts.landmarks);
+  EXPECT_EQ(std::ssize(map.keyframes()), kFrames);
   EXPECT_GT(map.landmarks().size(), 300U);
   const SimulatedStreet street(street_options());
   std::vector<DepthImage> truth;
   for (int i = 0; i < kFrames; ++i) truth.push_back(street.render(i).depth_true);
   std::size_t on_surface = 0;
   for (const Landmark& landmark : map.landmarks()) {
-    const auto frame = static_cast<std::size_t>(landmark.sightings.front().keyframe.value);
+    const auto frame = landmark.sightings.front().keyframe.index();
     const Rigid3 camera_from_world = map.world_from_camera(landmark.sightings.front().keyframe).inverse();
     const Eigen::Vector3d point = camera_from_world * landmark.point_in_world;
-    const Eigen::Matrix3d& covariance = covariances[static_cast<std::size_t>(landmark.id.value)];
+    const Eigen::Matrix3d& covariance = covariances[landmark.id.index()];
     const Eigen::Vector3d axis = camera_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
     const double sigma = std::sqrt(axis.dot(covariance * axis));
     const double surface = surface_near(truth[frame], map.rig().project(point), point.z());
@@ -86,7 +86,7 @@ TEST_F(SurveyTest, the_map_holds_together) {
 TEST_F(SurveyTest, is_the_same_at_any_number_of_threads) {
   (void)survey("one", 1);
   const auto one = contents_of(folder("one"));
-  EXPECT_GT(one.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_GT(std::ssize(one), kFrames);
   for (const int threads : {2, 3}) {
     const std::string name = std::to_string(threads);
     (void)survey(name, threads);
@@ -167,7 +167,7 @@ TEST_F(SurveyTest, frames_without_a_pose_are_left_out) {
   EXPECT_EQ(result.counts.without_pose, 2);
   EXPECT_EQ(result.counts.frames, kFrames - 2);
   const Map map = read_map(folder("map"));
-  ASSERT_EQ(map.keyframes().size(), static_cast<std::size_t>(kFrames - 2));
+  ASSERT_EQ(std::ssize(map.keyframes()), kFrames - 2);
   EXPECT_EQ(map.keyframes()[3].observed.frame, FrameId{3});
   EXPECT_EQ(map.keyframes()[4].observed.frame, FrameId{5});
 }
@@ -231,7 +231,7 @@ TEST_F(SurveyTest, images_without_texture_make_a_map_without_landmarks) {
   const SurveyResult result = survey("map");
   EXPECT_EQ(result.counts.landmarks, 0);
   EXPECT_EQ(result.counts.features, 0);
-  EXPECT_EQ(read_map(folder("map")).keyframes().size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(std::ssize(read_map(folder("map")).keyframes()), kFrames);
 }
 
 TEST_F(SurveyTest, wrong_poses_make_no_landmarks) {
