@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include "cairn/core/test_parameters.h"
+
 namespace cairn {
 namespace {
+
+TEST(LocalizeOptions, that_are_not_numbers_are_refused_by_name) {
+  EXPECT_GT(test::expect_nan_is_refused<LocalizeOptions>(), 5U);
+}
 
 MapInfo map_of(double fx, double fy) {
   MapInfo map;

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/options.h"
+
+#include <gtest/gtest.h>
+
+#include "cairn/core/test_parameters.h"
+
+namespace cairn {
+namespace {
+
+TEST(SurveyOptions, that_are_not_numbers_are_refused_by_name) {
+  EXPECT_GT(test::expect_nan_is_refused<SurveyOptions>(), 20U);
+}
+
+}  // namespace
+}  // namespace cairn
