@@ -5,10 +5,15 @@
 
 #include <limits>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/error.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 struct Fields {
   double threshold = 1.5;
@@ -30,7 +35,7 @@ struct Fields {
   }
 };
 
-class SettingsTest : public testing::Test, protected TestFolder {
+class SettingsTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] Fields read(const std::string& text) const {
     Fields fields;
