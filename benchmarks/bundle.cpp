@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bundle.h"
 
+#include <algorithm>
 #include <memory>
 
-#include "cairn/optimize/bundle_test_ceres.h"
-#include "cairn/optimize/bundle_test_scene.h"
+#include "cairn/testing/optimize/bundle_scene.h"
+#include "cairn/testing/optimize/ceres_bundle.h"
 
 namespace cairn::bench {
 namespace {
+
+using testkit::BundleSceneOptions;
+using testkit::CeresBundle;
+using testkit::make_bundle_scene;
 
 /// The window of a SLAM run: half its keyframes free.
 constexpr BundleSceneOptions kStereoWindow{.cameras = 20, .fixed = 10, .points = 2000, .longest_track = 9};
@@ -32,7 +37,7 @@ void add(Comparisons& comparisons, const std::string& work, const BundleSceneOpt
   };
   // not slower than DENSE_SCHUR on any of these
   const auto theirs = [problem] {
-    return CeresBundle(*problem).solve(kOptions, ceres::SPARSE_SCHUR).final_cost;
+    return CeresBundle(*problem).solve(kOptions, CeresBundle::Schur::sparse).final;
   };
   comparisons.timed.push_back({"bundle beside Ceres: " + work,
                                1,

@@ -9,10 +9,14 @@
 #include <algorithm>
 #include <memory>
 
-#include "cairn/optimize/landmark_test_scene.h"
+#include "cairn/testing/optimize/landmark_scene.h"
 
 namespace cairn::bench {
 namespace {
+
+using testkit::LandmarkScene;
+using testkit::LandmarkSceneOptions;
+using testkit::make_landmark_scene;
 
 /// 11.5 sightings each, half a pixel of noise; nothing is dropped, so that all solve one problem.
 const LandmarkSceneOptions kStreet{.landmarks = 1000, .shortest_track = 3, .longest_track = 20};

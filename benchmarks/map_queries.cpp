@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cairn/localize/localizer.h"
-#include "cairn/localize/test_street.h"
+#include "cairn/testing/localize/street_world.h"
 #include "localization.h"
 
 namespace cairn::bench {
@@ -42,7 +42,7 @@ class LazyMap {
  private:
   void write() {
     if (world_) return;
-    test::World::Options street;
+    testkit::StreetWorld::Options street;
     street.length = length_;
     street.points = static_cast<std::size_t>(50 * length_);
     street.keyframes = static_cast<int>(length_ / 3);
@@ -56,19 +56,19 @@ class LazyMap {
   void open_for_queries() {
     constexpr std::uint64_t kImages = 60;
     map_ = std::make_unique<MapView>(folder_);
-    localizer_.emplace(*map_, test::query_camera(), LocalizeOptions());
+    localizer_.emplace(*map_, testkit::street_query_camera(), LocalizeOptions());
     for (std::uint64_t i = 0; i < kImages; ++i) {
       const double x = 5 + (length_ - 20) * static_cast<double>(i) / static_cast<double>(kImages);
-      images_.push_back(world_->see(test::World::pose_at(x, 0.2, 0.03), 1'000'000 + i, true, 1000));
+      images_.push_back(world_->see(testkit::StreetWorld::pose_at(x, 0.2, 0.03), 1'000'000 + i, true, 1000));
     }
   }
 
   double length_;  // metres of street
   fs::path folder_;
-  std::optional<test::World> world_;
+  std::optional<testkit::StreetWorld> world_;
   std::unique_ptr<MapView> map_;
   std::optional<Localizer> localizer_;
-  std::vector<test::World::View> images_;
+  std::vector<testkit::StreetWorld::View> images_;
   std::size_t next_ = 0;
 };
 

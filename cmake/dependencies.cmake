@@ -23,6 +23,6 @@ foreach(module core imgproc features2d)
   target_link_libraries(cairn_opencv INTERFACE ${OPENCV_${module}_LIBRARY})
 endforeach()
 
-if(CAIRN_TESTS)
+if(CAIRN_TESTS OR CAIRN_BENCHMARKS)
   find_package(GTest REQUIRED)        # unit tests
 endif()

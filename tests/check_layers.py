@@ -4,10 +4,13 @@
 
 1. A file of a room includes only rooms at or above its own in ROOMS, and only the libraries that ROOMS names for it.
 2. A public header (one in the HEADERS list of its room) includes no heavy library.
-3. src/cairn/CMakeLists.txt adds the rooms in the order of ROOMS.
+3. src/cairn/CMakeLists.txt adds the rooms in the order of ROOMS, then the test kit.
+4. Only tests and the kit itself include the test kit, src/cairn/testing. Its folders have the names of rooms; what lies
+   in one uses that room and those above it, and so do the tests that include it.
 """
 
 import argparse
+import collections
 import re
 import sys
 from pathlib import Path
@@ -31,9 +34,13 @@ ROOMS = {
     "evaluate": set(),
     "report": {"nlohmann"},
 }
+KIT = "testing"
 EVERYWHERE = {"fmt"}
 EIGEN_FROM = "geometry"  # this room and those after it
 HEAVY = {"opencv", "ceres", "octomap", "yaml-cpp", "nlohmann", "CLI"}
+
+# A file: its room (of a file of the kit, the room whose name its folder has) and what it is.
+File = collections.namedtuple("File", "room is_test is_kit is_public")
 
 # What an include begins with, and the library that it comes from.
 LIBRARIES = {
@@ -64,28 +71,32 @@ def libraries_allowed(room, is_test):
     return allowed | {"gtest"} if is_test else allowed
 
 
-def complaint_about_library(header, room, is_test, is_public):
+def complaint_about_library(header, file):
     library = library_of(header)
     if library is None:
         return f"<{header}> is of no library that tests/check_layers.py knows; add it to LIBRARIES and to one room"
     if not library:
         return None
-    if library not in libraries_allowed(room, is_test):
-        return f"room '{room}' may not use {library} (<{header}>)"
-    if is_public and library in HEAVY:
+    if library not in libraries_allowed(file.room, file.is_test or file.is_kit):
+        return f"room '{file.room}' may not use {library} (<{header}>)"
+    if file.is_public and library in HEAVY:
         return f"a public header may not include {library} (<{header}>); include it in the .cpp"
     return None
 
 
-def complaint_about_room(header, room):
+def complaint_about_room(header, file):
     parts = header.split("/")
     if parts[0] != "cairn" or len(parts) not in (3, 4):
         return f'"{header}": write the whole path, "cairn/<room>/[<folder>/]<file>.h"'
+    if parts[1] == KIT:
+        if not (file.is_test or file.is_kit):
+            return f'only tests may include the test kit ("{header}")'
+        parts = parts[1:]
     names = list(ROOMS)
     if parts[1] not in ROOMS:
         return f'"{header}": there is no room \'{parts[1]}\''
-    if names.index(parts[1]) > names.index(room):
-        return f"room '{room}' may not include '{parts[1]}', which is further down (\"{header}\")"
+    if names.index(parts[1]) > names.index(file.room):
+        return f"room '{file.room}' may not include '{parts[1]}', which is further down (\"{header}\")"
     return None
 
 
@@ -97,36 +108,54 @@ def public_headers(room_folder):
     return set(match.group(1).split()) if match else set()
 
 
-def check_file(path, room, is_public):
+def check_file(path, file):
     complaints = []
     for number, line in enumerate(path.read_text().splitlines(), 1):
         match = INCLUDE.match(line)
         if not match:
             continue
         library, own = match.groups()
-        is_test = path.name.endswith("_test.cpp") or path.name.startswith("test_")
-        complaint = (complaint_about_room(own, room) if own
-                     else complaint_about_library(library, room, is_test, is_public))
+        complaint = complaint_about_room(own, file) if own else complaint_about_library(library, file)
         if complaint:
             complaints.append(f"{path}:{number}: {complaint}")
     return complaints
 
 
+def describe(path, source):
+    """The File at `path`, or None if it is in no room."""
+    room, *below = path.relative_to(source).parts
+    is_kit = room == KIT
+    if is_kit:
+        room = below[0]
+    if room not in ROOMS:
+        return None
+    is_public = path.suffix == ".h" if is_kit else path.name in public_headers(source / room)
+    return File(room, path.name.endswith("_test.cpp"), is_kit, is_public)
+
+
 def check_rooms(source):
     complaints = []
     for path in cpp_files(source.parent.parent, folders=("src/cairn",)):
-        room = path.relative_to(source).parts[0]
-        if room not in ROOMS:
-            complaints.append(f"{path}: '{room}' is no room of tests/check_layers.py")
-            continue
-        complaints += check_file(path, room, path.name in public_headers(source / room))
+        file = describe(path, source)
+        if file:
+            complaints += check_file(path, file)
+        else:
+            complaints.append(f"{path}: '{path.parent.name}' is no room of tests/check_layers.py")
     return complaints
+
+
+def check_program(root):
+    """The program is above all rooms, but the test kit is not for it."""
+    return [f'{path}:{number}: only tests may include the test kit'
+            for path in cpp_files(root, folders=("apps",))
+            for number, line in enumerate(path.read_text().splitlines(), 1)
+            if (match := INCLUDE.match(line)) and (match.group(2) or "").startswith(f"cairn/{KIT}/")]
 
 
 def check_order(description):
     text = re.sub(r"#.*", "", description.read_text()) if description.exists() else ""
     added = re.findall(r"add_subdirectory\((\w+)\)", text)
-    ordered = [room for room in ROOMS if room in added]
+    ordered = [room for room in (*ROOMS, KIT) if room in added]
     if added == ordered:
         return []
     return [f"{description}: expected the rooms {ordered}, found {added}"]
@@ -135,8 +164,9 @@ def check_order(description):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=Path, default=ROOT)
-    source = parser.parse_args().root / "src" / "cairn"
-    complaints = check_order(source / "CMakeLists.txt") + check_rooms(source)
+    root = parser.parse_args().root
+    source = root / "src" / "cairn"
+    complaints = check_order(source / "CMakeLists.txt") + check_rooms(source) + check_program(root)
     print(*complaints, sep="\n", end="\n" if complaints else "")
     print(f"layers: {len(complaints)} complaints")
     return 1 if complaints else 0

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -20,16 +21,14 @@ namespace fs = std::filesystem;
 
 class FileTest : public testing::Test {
  protected:
-  FileTest() { fs::create_directories(folder_); }
-  ~FileTest() override { fs::remove_all(folder_); }
-
   std::vector<std::string> names() const {
     std::vector<std::string> result;
     for (const auto& entry : fs::directory_iterator(folder_)) result.push_back(entry.path().filename());
     return result;
   }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("cairn_file_test_" + std::to_string(::getpid()));
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 /// Makes the system refuse to let a file grow beyond `bytes`, as a full disk does.

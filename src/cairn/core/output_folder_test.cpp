@@ -10,6 +10,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -18,9 +19,6 @@ namespace fs = std::filesystem;
 
 class OutputFolderTest : public testing::Test {
  protected:
-  OutputFolderTest() { fs::create_directories(folder_); }
-  ~OutputFolderTest() override { fs::remove_all(folder_); }
-
   static std::set<std::string> names(const fs::path& folder) {
     std::set<std::string> result;
     for (const auto& entry : fs::directory_iterator(folder)) result.insert(entry.path().filename());
@@ -44,8 +42,8 @@ class OutputFolderTest : public testing::Test {
     return "";
   }
 
-  const fs::path folder_ = fs::weakly_canonical(fs::path(testing::TempDir())) /
-                           ("cairn_output_folder_test_" + std::to_string(::getpid()));
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   const fs::path target_ = folder_ / "run";
 };
 

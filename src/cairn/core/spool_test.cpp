@@ -2,20 +2,16 @@
 #include "cairn/core/spool.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <filesystem>
 #include <string>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
-
-std::filesystem::path test_path() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + std::to_string(::getpid()));
-}
 
 std::string read_all(Spool& spool) {
   std::string all;
@@ -24,7 +20,8 @@ std::string read_all(Spool& spool) {
 }
 
 TEST(Spool, goes_on_from_its_state) {
-  const auto path = test_path();
+  const testkit::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "spool";
   SpoolState state;
   {
     Spool spool(path);
@@ -39,11 +36,11 @@ TEST(Spool, goes_on_from_its_state) {
   EXPECT_EQ(read_all(spool), "kept and more!");
   EXPECT_EQ(spool.sync(), (SpoolState{14, crc32("kept and more!")}));
   EXPECT_EQ(read_file(path), "kept and more!");
-  std::filesystem::remove(path);
 }
 
 TEST(Spool, hands_out_more_than_a_piece) {
-  const auto path = test_path();
+  const testkit::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "spool";
   Spool spool(path);
   std::string written;
   for (int i = 0; i < 300'000; ++i) {
@@ -52,11 +49,11 @@ TEST(Spool, hands_out_more_than_a_piece) {
     written += number;
   }
   EXPECT_EQ(read_all(spool), written);
-  std::filesystem::remove(path);
 }
 
 TEST(Spool, finds_what_was_changed_or_lost) {
-  const auto path = test_path();
+  const testkit::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "spool";
   SpoolState state;
   {
     Spool spool(path);

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cairn/core/error.h"
-#include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -102,10 +102,8 @@ TEST(NearestName, finds_the_smallest_edit_distance) {
 class TextFileTest : public testing::Test {
  protected:
   TextFile open(std::string_view contents, Separator separator = Separator::blanks) const {
-    write_file(path_, contents);
-    return TextFile(path_, separator);
+    return TextFile(folder_.write("text.txt", contents), separator);
   }
-  void TearDown() override { fs::remove(path_); }
 
   /// What the exception of `action` says, without the path.
   template <class Action>
@@ -119,9 +117,8 @@ class TextFileTest : public testing::Test {
   }
 
  private:
-  const fs::path path_ =
-      fs::path(testing::TempDir()) /
-      (std::string("text_test_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+  const testkit::TemporaryFolder folder_;
+  const fs::path path_ = folder_ / "text.txt";
 };
 
 TEST_F(TextFileTest, splits_lines_into_fields) {

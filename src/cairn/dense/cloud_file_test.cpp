@@ -9,12 +9,12 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
-#include "cairn/dense/test_scene.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
 
-using test_scene::temporary_path;
+using testkit::TemporaryFolder;
 
 Cloud random_cloud(std::size_t count) {
   Random random(count);
@@ -38,16 +38,16 @@ std::string bytes_of(std::initializer_list<float> values) {
 }
 
 Cloud read_text(const std::string& name, const std::string& contents) {
-  const auto path = temporary_path(name);
-  write_file(path, contents);
-  return read_cloud(path);
+  const TemporaryFolder folder;
+  return read_cloud(folder.write(name, contents));
 }
 
 TEST(CloudFile, WrittenPointsComeBack) {
+  const TemporaryFolder folder;
   for (const std::size_t count : {0U, 1U, 5000U, 10000U}) {
     const Cloud cloud = random_cloud(count);
     for (const char* name : {"a.ply", "a.pcd"}) {
-      const auto path = temporary_path(name);
+      const auto path = folder / name;
       write_cloud(path, cloud);
       const Cloud read = read_cloud(path);
       EXPECT_EQ(read.points, cloud.points) << name;
@@ -57,7 +57,8 @@ TEST(CloudFile, WrittenPointsComeBack) {
 }
 
 TEST(CloudFile, TheBytesOfAPlyFile) {
-  const auto path = temporary_path("bytes.ply");
+  const TemporaryFolder folder;
+  const auto path = folder / "bytes.ply";
   write_cloud(path, {{{1.0F, 2.0F, 3.0F, 65, 66, 67}}});
   EXPECT_EQ(read_file(path),
             "ply\nformat binary_little_endian 1.0\ncomment written by cairn, metres\nelement vertex 1\n"
@@ -67,7 +68,8 @@ TEST(CloudFile, TheBytesOfAPlyFile) {
 }
 
 TEST(CloudFile, TheBytesOfAPcdFile) {
-  const auto path = temporary_path("bytes.pcd");
+  const TemporaryFolder folder;
+  const auto path = folder / "bytes.pcd";
   write_cloud(path, {{{1.0F, 2.0F, 3.0F, 65, 66, 67}}});
   EXPECT_EQ(
       read_file(path),
@@ -216,11 +218,11 @@ const Broken kBroken[] = {
 };
 
 TEST(CloudFile, EveryDefectIsAnInputErrorThatSaysWhatToDo) {
+  const TemporaryFolder folder;
   for (const Broken& broken : kBroken) {
     std::string contents = broken.contents;
     if (contents.starts_with("PLY_HEAD")) contents.replace(0, 8, kPlyHead);
-    const auto path = temporary_path(broken.name);
-    write_file(path, contents);
+    const auto path = folder.write(broken.name, contents);
     try {
       (void)read_cloud(path);
       ADD_FAILURE() << broken.name << " was read";
@@ -231,9 +233,9 @@ TEST(CloudFile, EveryDefectIsAnInputErrorThatSaysWhatToDo) {
 }
 
 TEST(CloudFile, TruncatedAnywhereItIsAnInputErrorOrReadAsAWhole) {
-  const auto path = temporary_path("whole.pcd");
+  const TemporaryFolder folder;
   for (const char* name : {"whole.ply", "whole.pcd"}) {
-    const auto whole = temporary_path(name);
+    const auto whole = folder / name;
     write_cloud(whole, random_cloud(3));
     const std::string contents = read_file(whole);
     for (std::size_t length = 0; length < contents.size(); ++length)

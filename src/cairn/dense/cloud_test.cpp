@@ -11,25 +11,25 @@
 #include "cairn/core/error.h"
 #include "cairn/core/executor.h"
 #include "cairn/dense/depth_edges.h"
-#include "cairn/dense/test_scene.h"
+#include "cairn/testing/image/depth_scene.h"
 
 namespace cairn {
 namespace {
 
-using test_scene::color_image;
-using test_scene::depth_image;
-using test_scene::world_from_camera;
+using testkit::color_image;
+using testkit::depth_image;
+using testkit::walking_pose;
 
 constexpr int kFrames = 12;
 
 Cloud fuse(int threads) {
-  const PixelRays rays(test_scene::small_camera());
+  const PixelRays rays(testkit::small_camera());
   CloudBuilder builder({.voxel_size = 0.02, .max_edge_step = 0});
   const Executor executor(threads);
   executor.ordered_pipeline<VoxelSums>(
       kFrames,
       [&](std::size_t i) {
-        return builder.reduce(depth_image(i), color_image(), rays, world_from_camera(static_cast<int>(i)));
+        return builder.reduce(depth_image(i), color_image(), rays, walking_pose(static_cast<int>(i)));
       },
       [&](std::size_t, VoxelSums&& frame) {
         builder.add(frame);
@@ -44,7 +44,7 @@ struct PlainSum {
   int count = 0;
 };
 std::map<std::array<int, 3>, PlainSum> fuse_plainly(double voxel_size) {
-  const Camera camera = test_scene::small_camera();
+  const Camera camera = testkit::small_camera();
   std::map<std::array<int, 3>, PlainSum> voxels;
   for (int frame = 0; frame < kFrames; ++frame) {
     const DepthImage depth = depth_image(static_cast<std::uint64_t>(frame));
@@ -53,7 +53,7 @@ std::map<std::array<int, 3>, PlainSum> fuse_plainly(double voxel_size) {
       for (int u = 0; u < depth.width(); ++u) {
         if (!(depth(u, v) > 0.1F && depth(u, v) <= 4.0F)) continue;
         const Eigen::Vector3d point =
-            world_from_camera(frame) * *camera.back_project({u, v}, static_cast<double>(depth(u, v)));
+            walking_pose(frame) * *camera.back_project({u, v}, static_cast<double>(depth(u, v)));
         const Eigen::Array3i key = (point / voxel_size).array().floor().cast<int>();
         PlainSum& sum = voxels[{key.z(), key.y(), key.x()}];
         sum.position += point;
@@ -91,7 +91,7 @@ TEST(CloudBuilder, TheSameAtAnyNumberOfThreads) {
 }
 
 TEST(CloudBuilder, DepthsOutOfRangeAndPixelsWithoutARayAreLeftOut) {
-  Camera camera = test_scene::small_camera();
+  Camera camera = testkit::small_camera();
   const RgbImage color = color_image();
   DepthImage depth(64, 48);
   depth(1, 1) = 0.1F;
@@ -147,7 +147,7 @@ TEST(CloudBuilder, RefusesPosesFarFromTheOrigin) {
   CloudBuilder builder;
   Rigid3 far;
   far.translation = {4e6, 0, 0};
-  EXPECT_THROW(builder.add(depth_image(1), color_image(), PixelRays(test_scene::small_camera()), far),
+  EXPECT_THROW(builder.add(depth_image(1), color_image(), PixelRays(testkit::small_camera()), far),
                InputError);
 }
 

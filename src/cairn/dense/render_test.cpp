@@ -8,7 +8,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/dense/overview.h"
-#include "cairn/dense/test_scene.h"
+#include "cairn/testing/image/depth_scene.h"
 
 namespace cairn {
 namespace {
@@ -58,7 +58,7 @@ CameraPath turning_path() {
 }
 
 View looking_at_wall(double distance) {
-  return {test_scene::small_camera(), {Eigen::Quaterniond::Identity(), {0, 0, -distance}}};
+  return {testkit::small_camera(), {Eigen::Quaterniond::Identity(), {0, 0, -distance}}};
 }
 
 Cloud red_wall() {

@@ -7,10 +7,13 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
-#include "cairn/evaluate/test_drive.h"
+#include "cairn/testing/geometry/reference_drive.h"
 
 namespace cairn {
 namespace {
+
+using testkit::estimated_drive;
+using testkit::true_drive;
 
 /// Truth along x, one metre a frame; the estimate is `scale` times as long and turns `turn_rad` a frame.
 std::vector<PosePair> straight(int count, double scale, double turn_rad) {

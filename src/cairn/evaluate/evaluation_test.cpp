@@ -11,10 +11,13 @@
 #include <string>
 
 #include "cairn/core/error.h"
-#include "cairn/evaluate/test_drive.h"
+#include "cairn/testing/geometry/reference_drive.h"
 
 namespace cairn {
 namespace {
+
+using testkit::estimated_drive;
+using testkit::true_drive;
 
 /// The trajectories of evaluation_reference.py, 0.1 s apart.
 Rigid3 reference_pose(int i) {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -56,11 +56,10 @@ TEST(PosePairs, OfNothingAreNothing) {
 
 class PosePairsFile : public ::testing::Test {
  protected:
-  void write(std::string_view text) const { write_file(path_, text); }
-  ~PosePairsFile() override { std::filesystem::remove(path_); }
+  void write(std::string_view text) const { folder_.write("pairs.txt", text); }
 
-  const std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / fmt::format("cairn_pose_pairs_{}.txt", ::getpid());
+  const testkit::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "pairs.txt";
 };
 
 TEST_F(PosePairsFile, IsReadInItsOrder) {

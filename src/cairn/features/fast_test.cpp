@@ -3,10 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/features/kernels/test_kernels.h"
+#include <algorithm>
+
+#include "cairn/core/executor.h"
+#include "cairn/testing/image/random_images.h"
 
 namespace cairn {
 namespace {
+
+using testkit::blocky_image;
+using testkit::random_image;
 
 GrayImage with_square(int side, std::uint8_t ground, std::uint8_t square) {
   GrayImage image(side, side, ground);

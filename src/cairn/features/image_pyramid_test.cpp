@@ -5,10 +5,13 @@
 
 #include <cmath>
 
-#include "cairn/features/kernels/test_kernels.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/image/random_images.h"
 
 namespace cairn {
 namespace {
+
+using testkit::random_image;
 
 GrayImage ramp(int width, int height) {
   GrayImage image(width, height);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -10,11 +11,15 @@
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 
+#include "cairn/core/executor.h"
 #include "cairn/features/image_pyramid.h"
-#include "cairn/features/kernels/test_kernels.h"
+#include "cairn/testing/image/random_images.h"
 
 namespace cairn {
 namespace {
+
+using testkit::blocky_image;
+using testkit::random_image;
 
 /// Blocks smoothed a little, as a lens would: corners at many scales.
 GrayImage scene(int width, int height, std::uint64_t seed) {

@@ -8,15 +8,16 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
-#include "cairn/features/stereo_test_images.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/image/textured_pair.h"
 
 namespace cairn {
 namespace {
 
-using test::make_pair;
-using test::Surface;
-using test::TestPair;
-using test::Waves;
+using testkit::make_pair;
+using testkit::Surface;
+using testkit::TestPair;
+using testkit::Waves;
 
 /// Errors and errors in units of their sigma, over places of a pair.
 struct Errors {
@@ -165,8 +166,8 @@ TEST(FindDisparity, repeated_texture_has_no_place) {
   TestPair pair{GrayImage(200, 60), GrayImage(200, 60)};
   for (int v = 0; v < 60; ++v) {
     for (int u = 0; u < 200; ++u) {
-      pair.left(u, v) = test::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * u / kPeriod));
-      pair.right(u, v) = test::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * (u + 5) / kPeriod));
+      pair.left(u, v) = testkit::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * u / kPeriod));
+      pair.right(u, v) = testkit::to_gray(110 + 60 * std::sin(2 * std::numbers::pi * (u + 5) / kPeriod));
     }
   }
   EXPECT_FALSE(find_disparity(pair.left, pair.right, 100, 30, 0, 45));

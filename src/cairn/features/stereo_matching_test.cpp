@@ -8,15 +8,17 @@
 #include <limits>
 
 #include "cairn/core/error.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/random.h"
 #include "cairn/features/matching.h"
-#include "cairn/features/stereo_test_images.h"
+#include "cairn/testing/image/textured_pair.h"
 
 namespace cairn {
 namespace {
 
-using test::make_pair;
-using test::TestPair;
-using test::Waves;
+using testkit::make_pair;
+using testkit::TestPair;
+using testkit::Waves;
 
 constexpr int kWidth = 200, kHeight = 60;
 const Rig kRig{100, 100, 100, 30, 0.2};  // disparity = 20 / depth

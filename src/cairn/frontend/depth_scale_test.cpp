@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cairn/image/codec.h"
+#include "cairn/sequence/sequence.h"
 #include "cairn/sequence/simulate_room.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::RecordingFolder;
 
 namespace fs = std::filesystem;
 
@@ -66,7 +70,7 @@ void expect_doubt_of_wrong_scales_only(const Sequence& sequence) {
   }
 }
 
-class DepthScaleTest : public testing::Test, protected TestFolder {};
+class DepthScaleTest : public testing::Test, protected RecordingFolder {};
 
 TEST_F(DepthScaleTest, a_simulated_room) {
   SimulateRoomOptions options;

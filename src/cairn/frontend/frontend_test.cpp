@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "cairn/core/random.h"
+#include "cairn/image/codec.h"
 #include "cairn/image/resize.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::RecordingFolder;
 
 constexpr int kWidth = 640, kHeight = 480, kBlock = 20;
 constexpr double kFocal = 500;
@@ -24,7 +28,7 @@ GrayImage blocks(int shift) {
   return image;
 }
 
-class FrontendTest : public testing::Test, protected TestFolder {
+class FrontendTest : public testing::Test, protected RecordingFolder {
  protected:
   /// What is observed of the first frame at half its size.
   [[nodiscard]] std::vector<Observation> observed_at_half_size() const {

@@ -5,10 +5,17 @@
 
 #include <atomic>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/error.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kSmallCamera;
+using testkit::RecordingFolder;
 
 constexpr int kFrames = 6;
 
@@ -29,7 +36,7 @@ struct Listener : Progress {
   int stop_after = 0;
 };
 
-class ObserveFramesTest : public testing::Test, protected TestFolder {
+class ObserveFramesTest : public testing::Test, protected RecordingFolder {
  protected:
   ObserveFramesTest() {
     put("camera.yaml", kSmallCamera);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/features/stereo_test_images.h"
+#include "cairn/testing/image/textured_pair.h"
 
 namespace cairn {
 namespace {
@@ -21,11 +21,11 @@ Calibration calibration() {
 }
 
 Frame textured_frame() {
-  const test::Waves waves(8, 30, 3);
+  const testkit::Waves waves(8, 30, 3);
   Frame frame;
   frame.id = {4};
   frame.stamp_ns = 77;
-  frame.gray = test::make_pair(kWidth, kHeight, {}, waves, 1, 0).left;
+  frame.gray = testkit::make_pair(kWidth, kHeight, {}, waves, 1, 0).left;
   return frame;
 }
 
@@ -128,8 +128,8 @@ Calibration stereo_calibration() {
 
 /// A surface of this disparity, in the middle of the image.
 Frame stereo_frame(double disparity) {
-  const test::Waves waves(8, 30, 3);
-  const test::TestPair pair = test::make_pair(kWidth, kHeight, {disparity, 0.01, 0}, waves, 1, 1);
+  const testkit::Waves waves(8, 30, 3);
+  const testkit::TestPair pair = testkit::make_pair(kWidth, kHeight, {disparity, 0.01, 0}, waves, 1, 1);
   Frame frame;
   frame.gray = pair.left;
   frame.right = pair.right;

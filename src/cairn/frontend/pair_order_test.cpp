@@ -6,11 +6,17 @@
 
 #include <utility>
 
-#include "cairn/features/stereo_test_images.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/image/codec.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/image/textured_pair.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 namespace fs = std::filesystem;
 
@@ -21,10 +27,10 @@ Sequence exchanged(Sequence sequence) {
   return sequence;
 }
 
-class PairOrderTest : public testing::Test, protected TestFolder {
+class PairOrderTest : public testing::Test, protected RecordingFolder {
  protected:
   /// Three pairs of a surface; contrast 0: without texture.
-  [[nodiscard]] Sequence pairs_of(const test::Surface& surface, double contrast) const {
+  [[nodiscard]] Sequence pairs_of(const testkit::Surface& surface, double contrast) const {
     Sequence sequence;
     sequence.folder = folder_;
     sequence.format = "KITTI";
@@ -32,8 +38,8 @@ class PairOrderTest : public testing::Test, protected TestFolder {
     sequence.calibration.baseline = 0.5;
     sequence.calibration_source = "calib.txt";
     for (int i = 0; i < 3; ++i) {
-      const test::Waves waves(8, contrast, static_cast<std::uint64_t>(i));
-      const test::TestPair pair = test::make_pair(kWidth, kHeight, surface, waves, 1, 1);
+      const testkit::Waves waves(8, contrast, static_cast<std::uint64_t>(i));
+      const testkit::TestPair pair = testkit::make_pair(kWidth, kHeight, surface, waves, 1, 1);
       const fs::path left = folder_ / fmt::format("l{}.png", i), right = folder_ / fmt::format("r{}.png", i);
       write_png(left, pair.left);
       write_png(right, pair.right);

@@ -6,10 +6,17 @@
 #include <Eigen/Cholesky>
 
 #include "cairn/geometry/inlier_limits.h"
-#include "cairn/geometry/test_camera_pose.h"
+#include "cairn/testing/geometry/pose_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::error_of;
+using testkit::kPoseRig;
+using testkit::make_pose_scene;
+using testkit::nudged;
+using testkit::PoseScene;
+using testkit::PoseSceneOptions;
 
 struct OptionSet {
   const char* name;

@@ -8,12 +8,19 @@
 #include <filesystem>
 
 #include "cairn/core/error.h"
+#include "cairn/core/random.h"
 #include "cairn/core/text.h"
 #include "cairn/geometry/pose_equations.h"
-#include "cairn/geometry/test_camera_pose.h"
+#include "cairn/testing/geometry/pose_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::error_of;
+using testkit::kPoseRig;
+using testkit::make_pose_scene;
+using testkit::nudged;
+using testkit::PoseScene;
 
 /// All points, no kernel.
 PoseOptions least_squares() {

@@ -8,10 +8,13 @@
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/essential_ransac.h"
-#include "cairn/geometry/two_view_test_scene.h"
+#include "cairn/testing/geometry/two_view_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::make_two_view_scene;
+using testkit::TwoViewScene;
 
 constexpr double kSigma = 1.0 / 500;  // one pixel of a camera with 500 pixels of focal length
 

@@ -8,10 +8,14 @@
 #include <cmath>
 
 #include "cairn/geometry/essential.h"
-#include "cairn/geometry/two_view_test_scene.h"
+#include "cairn/testing/geometry/two_view_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::make_two_view_scene;
+using testkit::SceneShape;
+using testkit::TwoViewScene;
 
 FivePointSolutions solve(const TwoViewScene& scene) {
   std::array<Eigen::Vector2d, 5> a, b;

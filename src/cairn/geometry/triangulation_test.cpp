@@ -5,10 +5,13 @@
 
 #include <cmath>
 
-#include "cairn/geometry/two_view_test_scene.h"
+#include "cairn/testing/geometry/two_view_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::make_two_view_scene;
+using testkit::TwoViewScene;
 
 TEST(Triangulation, finds_the_point_without_noise) {
   const TwoViewScene scene = make_two_view_scene(1, 200);

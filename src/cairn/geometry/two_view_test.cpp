@@ -5,10 +5,14 @@
 
 #include <cmath>
 
-#include "cairn/geometry/two_view_test_scene.h"
+#include "cairn/testing/geometry/two_view_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::make_two_view_scene;
+using testkit::SceneShape;
+using testkit::TwoViewScene;
 
 constexpr double kSigma = 1.0 / 500;  // a pixel
 

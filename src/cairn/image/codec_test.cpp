@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <turbojpeg.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -21,15 +21,10 @@ using std::string_literals::operator""s;
 
 class CodecTest : public testing::Test {
  protected:
-  CodecTest() { fs::create_directories(folder_); }
-  ~CodecTest() override { fs::remove_all(folder_); }
+  [[nodiscard]] fs::path file(const std::string& bytes) const { return temporary_.write("image", bytes); }
 
-  [[nodiscard]] fs::path file(const std::string& bytes) const {
-    write_file(folder_ / "image", bytes);
-    return folder_ / "image";
-  }
-
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("cairn_codec_" + std::to_string(::getpid()));
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 GrayImage gray_noise(int width, int height) {

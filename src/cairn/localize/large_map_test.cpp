@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cairn/localize/test_world.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/localize/street_world.h"
 
 namespace cairn {
 namespace {
 
-using test::World;
+using testkit::StreetWorld;
 
 constexpr double kShort = 200, kLong = 20'500;  // metres of street
 constexpr std::uint64_t kQueries = 60;
@@ -32,8 +33,8 @@ std::uint64_t bytes_in(const std::filesystem::path& folder) {
   return bytes;
 }
 
-World::Options street(double length) {
-  World::Options options;
+StreetWorld::Options street(double length) {
+  StreetWorld::Options options;
   options.length = length;
   options.points = static_cast<std::size_t>(50 * length);
   options.keyframes = static_cast<int>(length / 3);
@@ -42,18 +43,18 @@ World::Options street(double length) {
 }
 
 /// Looks for images along the street, which are found.
-void find_images(const World& world, const MapView& map, double length) {
-  const Localizer localizer(map, test::query_camera(), LocalizeOptions());
+void find_images(const StreetWorld& world, const MapView& map, double length) {
+  const Localizer localizer(map, testkit::street_query_camera(), LocalizeOptions());
   for (std::uint64_t i = 0; i < kQueries; ++i) {
     const double x = 5 + (length - 20) * static_cast<double>(i) / static_cast<double>(kQueries);
-    const auto view = world.see(World::pose_at(x, 0.2, 0.03), 1'000'000 + i, true, 1000);
+    const auto view = world.see(StreetWorld::pose_at(x, 0.2, 0.03), 1'000'000 + i, true, 1000);
     EXPECT_EQ(localizer.localize(view.frame).verdict, Verdict::good) << x;
   }
 }
 
 TEST(LargeMapSlow, a_query_of_a_million_landmarks_is_little_more_work_than_of_ten_thousand) {
-  const test::Folder folder;
-  const World small(street(kShort)), large(street(kLong));
+  const testkit::TemporaryFolder folder;
+  const StreetWorld small(street(kShort)), large(street(kLong));
   small.write_map(folder.path() / "small");
   large.write_map(folder.path() / "large");
   const MapView small_map(folder.path() / "small");

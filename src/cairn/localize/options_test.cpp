@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/core/test_parameters.h"
+#include "cairn/testing/core/nan_parameters.h"
 
 namespace cairn {
 namespace {
 
 TEST(LocalizeOptions, that_are_not_numbers_are_refused_by_name) {
-  EXPECT_GT(test::expect_nan_is_refused<LocalizeOptions>(), 5U);
+  EXPECT_GT(testkit::expect_nan_is_refused<LocalizeOptions>(), 5U);
 }
 
 MapInfo map_of(double fx, double fy) {

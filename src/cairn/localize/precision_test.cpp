@@ -5,10 +5,14 @@
 
 #include <cmath>
 
-#include "cairn/geometry/test_camera_pose.h"
+#include "cairn/testing/geometry/pose_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kPoseRig;
+using testkit::make_pose_scene;
+using testkit::PoseScene;
 
 /// The first `count` correspondences of a scene whose points are uncertain.
 Correspondences first(const PoseScene& scene, std::size_t count) {

@@ -7,10 +7,12 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::TemporaryFolder;
 
 constexpr BinaryKind kKind{"TESTFILE", 3};
 
@@ -58,7 +60,7 @@ TEST(BinaryFile, no_other_size_is_a_files) {
 }
 
 TEST(BinaryFile, the_file_that_is_written_in_pieces_is_the_same) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string whole = writer_of(10000).finish();
   const std::string_view body = std::string_view(whole).substr(0, 10000);
   BinaryFileWriter file(folder.path() / "file", writer_of(40));
@@ -69,7 +71,7 @@ TEST(BinaryFile, the_file_that_is_written_in_pieces_is_the_same) {
 }
 
 TEST(BinaryFile, is_read_in_pieces_larger_and_smaller_than_what_is_checked_at_once) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::size_t bytes = 700'001;
   const std::string whole = writer_of(bytes).finish();
   write_file(folder.path() / "file", whole);
@@ -77,7 +79,7 @@ TEST(BinaryFile, is_read_in_pieces_larger_and_smaller_than_what_is_checked_at_on
 }
 
 TEST(BinaryFile, hands_out_nothing_of_a_damaged_block) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   std::string changed = writer_of(600'000).finish();
   changed[500'000] ^= 1;
   write_file(folder.path() / "file", changed);
@@ -87,7 +89,7 @@ TEST(BinaryFile, hands_out_nothing_of_a_damaged_block) {
 }
 
 TEST(BinaryFile, finds_what_was_changed_and_names_old_versions) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const auto path = folder.path() / "file";
   const std::string whole = writer_of(9000).finish();
   for (const std::size_t place : {20UL, 4100UL, 8999UL, 9000UL, whole.size() - 1}) {

@@ -9,13 +9,33 @@
 #include <optional>
 #include <vector>
 
+#include "cairn/core/error.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
+#include "cairn/core/random.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/colmap_sources.h"
-#include "cairn/map/test_colmap.h"
-#include "cairn/map/test_map.h"
+#include "cairn/map/map_file.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/colmap_model.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::contents_of;
+using testkit::kSceneRig;
+using testkit::Model;
+using testkit::ModelCamera;
+using testkit::ModelImage;
+using testkit::ModelPoint;
+using testkit::observe_points;
+using testkit::project;
+using testkit::read_binary_model;
+using testkit::read_text_model;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -100,7 +120,7 @@ class ColmapExport : public testing::Test {
     EXPECT_GT(of_tracks, 0U);
   }
 
-  TestFolder folder_;
+  TemporaryFolder folder_;
   fs::path model_ = folder_.path() / "model";
   Sequence sequence_;
 };

@@ -9,26 +9,22 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
 
-std::filesystem::path test_file() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return std::filesystem::path(testing::TempDir()) / (std::string(test->name()) + ".g2o");
-}
-
 PoseGraph read_text(const std::string& text) {
-  write_file(test_file(), text);
-  return read_g2o(test_file());
+  const testkit::TemporaryFolder folder;
+  return read_g2o(folder.write("graph.g2o", text));
 }
 
 std::string message_for(const std::string& text) {
   try {
     (void)read_text(text);
   } catch (const InputError& error) {
+    const std::string& path = error.details().file;
     std::string message = error.what();
-    const std::string path = test_file().string();
     return message.replace(message.find(path), path.size(), "FILE");
   }
   return "no error";

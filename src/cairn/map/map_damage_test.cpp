@@ -6,13 +6,20 @@
 #include <functional>
 
 #include "cairn/core/checksum.h"
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
 #include "cairn/map/binary_file.h"
 #include "cairn/map/map_figures.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_for;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -91,7 +98,7 @@ BadMap bad_binary(const char* what, const char* name, std::size_t offset, Value 
 }
 
 void expect_refused(const std::vector<BadMap>& cases) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   for (const auto& [what, make, says] : cases) {
     write_map(folder.path() / "map", scene_map());
     make(folder.path() / "map");

@@ -7,11 +7,17 @@
 #include <cmath>
 
 #include "cairn/map/indicators.h"
-#include "cairn/map/test_map.h"
+#include "cairn/map/map_file.h"
 #include "cairn/map/uvlist.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::scene_covariances;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
 
 const Distribution& indicator(const MapFigures& figures, const std::string& name) {
   const auto found = std::find_if(figures.indicators.begin(), figures.indicators.end(),
@@ -21,7 +27,7 @@ const Distribution& indicator(const MapFigures& figures, const std::string& name
 }
 
 TEST(MapFigures, counts_what_the_map_holds) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path() / "map", scene_map());
   const MapFigures figures = read_map_figures(folder.path() / "map");
   EXPECT_EQ(figures.info.landmarks, 8U);
@@ -36,7 +42,7 @@ TEST(MapFigures, counts_what_the_map_holds) {
 }
 
 TEST(MapFigures, has_each_indicator_in_the_order_of_the_table) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Map map = scene_map();
   const std::vector<Eigen::Matrix3d> covariances = scene_covariances(map);
   write_map(folder.path() / "map", map, covariances);

@@ -8,10 +8,17 @@
 
 #include "cairn/core/checksum.h"
 #include "cairn/core/error.h"
-#include "cairn/map/test_map.h"
+#include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::contents_of;
+using testkit::kSceneRig;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
 
 template <class Value>
 Value at(const std::string& bytes, std::size_t offset) {
@@ -51,7 +58,7 @@ void expect_seal(const std::string& bytes) {
 }
 
 TEST(MapFile, frames_have_the_documented_layout) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), small_map());
   const std::string bytes = read_file(folder.path() / "frames/000001.orb");
   constexpr std::size_t kHeader = 32, kRecord = 39;
@@ -75,7 +82,7 @@ TEST(MapFile, frames_have_the_documented_layout) {
 }
 
 TEST(MapFile, points_have_the_documented_layout) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Eigen::Matrix3d covariance = (Eigen::Matrix3d() << 9, 1, 2, 1, 4, 3, 2, 3, 8).finished();
   write_map(folder.path(), small_map(), std::vector{covariance});
   const std::string bytes = read_file(folder.path() / "Point.bin");
@@ -93,7 +100,7 @@ TEST(MapFile, points_have_the_documented_layout) {
 }
 
 TEST(MapFile, descriptors_have_the_documented_layout) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), small_map());
   const std::string bytes = read_file(folder.path() / "Descriptor.bin");
   ASSERT_EQ(bytes.size(), 32U + 2 * 24 + 8);
@@ -112,7 +119,7 @@ TEST(MapFile, descriptors_have_the_documented_layout) {
 }
 
 TEST(MapFile, texts_are_as_documented) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), small_map());
   EXPECT_NE(read_file(folder.path() / "poses.txt").find("\n1.500000001 0 0.25 1e-12 0 0 0 1\n"),
             std::string::npos);
@@ -125,7 +132,7 @@ TEST(MapFile, texts_are_as_documented) {
 }
 
 TEST(MapFile, what_is_erased_is_left_out) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   std::vector<std::string> names;
   for (const auto& [name, contents] : contents_of(folder.path())) names.push_back(name);
@@ -141,7 +148,7 @@ TEST(MapFile, what_is_erased_is_left_out) {
 }
 
 TEST(MapFile, replaces_a_map_as_a_whole_and_nothing_else) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path() / "map", scene_map());
   write_map(folder.path() / "map", small_map());
   EXPECT_EQ(contents_of(folder.path() / "map").size(), 9U);  // none of the files of before
@@ -150,7 +157,7 @@ TEST(MapFile, replaces_a_map_as_a_whole_and_nothing_else) {
 }
 
 TEST(MapFile, refuses_what_could_not_be_read) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path target = folder.path() / "map";
   EXPECT_THROW(write_map(target, Map(kSceneRig, "ORB")), PreconditionError);
   Map of_no_kind(kSceneRig, "BRIEF");

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "cairn/core/checksum.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -38,7 +38,7 @@ std::string format(const MapInfo& info) {
 }
 
 MapInfo written_and_read(const MapInfo& info) {
-  const TestFolder folder;
+  const testkit::TemporaryFolder folder;
   write_file(folder.path() / kMapInfoFile, format(info));
   return read_map_info(folder.path() / kMapInfoFile);
 }

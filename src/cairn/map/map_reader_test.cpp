@@ -5,16 +5,27 @@
 #include <fstream>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/random.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
 
+using testkit::contents_of;
+using testkit::kSceneRig;
+using testkit::message_for;
+using testkit::observe_points;
+using testkit::scene_covariances;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
+
 namespace fs = std::filesystem;
 
 TEST(MapReader, writing_what_was_read_gives_the_same_bytes) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Map map = scene_map();
   write_map(folder.path() / "first", map, scene_covariances(map));
   const Map back = read_map(folder.path() / "first");
@@ -23,7 +34,7 @@ TEST(MapReader, writing_what_was_read_gives_the_same_bytes) {
 }
 
 TEST(MapReader, a_map_comes_back) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Map map = scene_map();
   write_map(folder.path(), map, scene_covariances(map));
   const Map back = read_map(folder.path());
@@ -55,7 +66,7 @@ TEST(MapReader, a_map_comes_back) {
 }
 
 TEST(MapReader, parents_are_earlier_keyframes_of_the_part) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   const Map back = read_map(folder.path());
   EXPECT_FALSE(back.keyframes()[0].parent.valid());
@@ -72,7 +83,7 @@ TEST(MapReader, the_parent_is_the_one_with_most_landmarks_in_common) {
   for (std::int32_t i = 0; i < 3; ++i) map.add_landmark(points[static_cast<std::size_t>(i)], {{0}, i});
   map.add_sighting({0}, {{1}, 0});
   for (std::int32_t i = 0; i < 2; ++i) map.add_sighting({i}, {{2}, i});
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), map);
   const Map back = read_map(folder.path());
   EXPECT_EQ(back.keyframes()[2].parent, KeyframeId{0});  // two in common, with keyframe 1 one
@@ -90,7 +101,7 @@ TEST(MapReader, rotations_and_infinite_variances_come_back_to_the_bit) {
   }
   map.add_landmark({0, 0, 3}, {{7}, 0});
   const Eigen::Matrix3d unknown = Eigen::Vector3d(1, INFINITY, INFINITY).asDiagonal();
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path() / "first", map, std::vector{unknown});
   write_map(folder.path() / "second", read_map(folder.path() / "first"),
             read_covariances(folder.path() / "first"));
@@ -98,7 +109,7 @@ TEST(MapReader, rotations_and_infinite_variances_come_back_to_the_bit) {
 }
 
 TEST(MapReader, reads_the_map_of_a_run) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   EXPECT_FALSE(find_map_folder(folder.path()));
   write_map(folder.path() / "map", scene_map());
   EXPECT_EQ(find_map_folder(folder.path()), folder.path() / "map");
@@ -108,7 +119,7 @@ TEST(MapReader, reads_the_map_of_a_run) {
 TEST(MapReader, a_map_without_landmarks_or_features_comes_back) {
   Map map(kSceneRig, "sift");
   map.add_keyframe({}, {}, {}, 0);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), map);
   EXPECT_TRUE(read_map(folder.path()).landmarks().empty());
 }
@@ -124,7 +135,7 @@ void flip_bit(const fs::path& file, std::size_t byte) {
 
 /// One bit of each byte of each file.
 TEST(MapReader, finds_every_flipped_bit) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   for (const auto& [name, contents] : contents_of(folder.path())) {
     if (name == ".cairn") continue;  // the marker for whoever writes
@@ -138,7 +149,7 @@ TEST(MapReader, finds_every_flipped_bit) {
 }
 
 TEST(MapReader, finds_every_missing_or_truncated_file) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const fs::path map = folder.path() / "map";
   write_map(map, scene_map());
   for (const auto& [name, contents] : contents_of(map)) {
@@ -156,7 +167,7 @@ TEST(MapReader, finds_every_missing_or_truncated_file) {
 }
 
 TEST(MapReader, says_where_there_is_no_map) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(message_for(folder.path()),
             "MAP: expected the folder of a map, or of a run with one in its map/, found none of its files.\n"
             "  Check the path; cairn map and cairn slam make maps.");

@@ -7,16 +7,26 @@
 #include <fstream>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/random.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
 
+using testkit::contents_of;
+using testkit::kSceneRig;
+using testkit::observe_points;
+using testkit::scene_covariances;
+using testkit::scene_map;
+using testkit::TemporaryFolder;
+
 namespace fs = std::filesystem;
 
 TEST(MapView, has_what_the_whole_reader_has) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Map written = scene_map();
   write_map(folder.path(), written, scene_covariances(written));
   const Map map = read_map(folder.path());
@@ -57,7 +67,7 @@ TEST(MapView, the_main_part_has_the_most_keyframes) {
   Map map(kSceneRig, "ORB");
   for (int k = 0; k < 5; ++k)
     map.add_keyframe(observe_points({{0, 0, 3}}, {}, 32, random), {}, {}, k == 0 || k == 4 ? 0 : 7);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), map);
   const MapView view(folder.path());
   EXPECT_FALSE(view.in_main_part({0}));
@@ -73,7 +83,7 @@ void flip_bit(const fs::path& file, std::size_t byte) {
 }
 
 TEST(MapView, finds_flipped_bits_in_all_files) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   const auto open_and_check = [&] { MapView(folder.path()).check(); };
   for (const auto& [name, contents] : contents_of(folder.path())) {
@@ -88,7 +98,7 @@ TEST(MapView, finds_flipped_bits_in_all_files) {
 }
 
 TEST(MapView, what_is_touched_is_checked) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   constexpr std::size_t kCovarianceOfLandmark2 = 24 + 2 * 112 + 50;
   flip_bit(folder.path() / kPointFile, kCovarianceOfLandmark2);
@@ -97,7 +107,7 @@ TEST(MapView, what_is_touched_is_checked) {
 }
 
 TEST(MapView, finds_every_missing_or_truncated_file) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   for (const auto& [name, contents] : contents_of(folder.path())) {
     if (name == ".cairn") continue;
@@ -115,7 +125,7 @@ TEST(MapView, finds_every_missing_or_truncated_file) {
 TEST(MapView, a_map_without_landmarks_can_be_viewed) {
   Map map(kSceneRig, "SIFT");
   map.add_keyframe({}, {}, {}, 0);
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path(), map);
   const MapView view(folder.path());
   EXPECT_TRUE(view.keyframe({0})->landmarks.empty());

@@ -7,10 +7,19 @@
 #include <optional>
 
 #include "cairn/core/error.h"
-#include "cairn/map/test_map.h"
+#include "cairn/core/file.h"
+#include "cairn/core/random.h"
+#include "cairn/map/map_file.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::contents_of;
+using testkit::kSceneRig;
+using testkit::observe_points;
+using testkit::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
@@ -117,7 +126,7 @@ void write_with_crash(const fs::path& folder, std::size_t saved, std::size_t kil
 }
 
 TEST(MapWriter, a_crash_at_any_step_changes_nothing) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_whole(folder.path() / "whole");
   const auto expected = contents_of(folder.path() / "whole");
   for (std::size_t saved = 0; saved <= steps().size(); ++saved) {
@@ -129,7 +138,7 @@ TEST(MapWriter, a_crash_at_any_step_changes_nothing) {
 }
 
 TEST(MapWriter, half_written_frames_of_a_crash_are_gone) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   make_folder(folder.path() / "map");
   MapWriterState state;
   {
@@ -157,7 +166,7 @@ TEST(MapWriter, half_written_frames_of_a_crash_are_gone) {
 }
 
 TEST(MapWriter, what_is_true_of_the_whole_map_comes_back) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_whole(folder.path() / "map");
   const Map map = read_map(folder.path() / "map");
   EXPECT_EQ(map.header().width, 640);
@@ -173,7 +182,7 @@ TEST(MapWriter, what_is_true_of_the_whole_map_comes_back) {
 }
 
 TEST(MapWriter, its_state_goes_through_a_file) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   MapWriter map_writer(folder.path(), header());
   steps()[0](map_writer);
   steps()[3](map_writer);
@@ -192,7 +201,7 @@ TEST(MapWriter, its_state_goes_through_a_file) {
 }
 
 TEST(MapWriter, refuses_what_no_map_can_have) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   MapWriter writer(folder.path(), header());
   EXPECT_THROW(writer.finish(), PreconditionError);  // no frame
   FinishedLandmark unseen = landmark(1);

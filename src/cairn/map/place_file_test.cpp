@@ -6,11 +6,17 @@
 #include <cstring>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/core/random.h"
 #include "cairn/map/map_writer.h"
-#include "cairn/map/test_map.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kSceneRig;
+using testkit::TemporaryFolder;
 
 constexpr std::size_t kBytes = 128;
 
@@ -54,7 +60,7 @@ struct Places {
 };
 
 TEST(PlaceFile, finds_landmarks_by_their_look) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   constexpr std::int32_t kLandmarks = 3000;
   const Places places(folder.path() / "map", kLandmarks, 6);
   const PlaceFile file(folder.path() / "map", read_map_info(folder.path() / "map/map.json"));
@@ -76,7 +82,7 @@ TEST(PlaceFile, finds_landmarks_by_their_look) {
 }
 
 TEST(PlaceFile, is_a_quarter_of_the_sightings) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Places one(folder.path() / "one", 1000, 1), four(folder.path() / "four", 1000, 4),
       five(folder.path() / "five", 1000, 5);
   const auto bytes = [&](const char* name) {
@@ -87,7 +93,7 @@ TEST(PlaceFile, is_a_quarter_of_the_sightings) {
 }
 
 TEST(PlaceFile, impossible_counts_are_refused_though_the_checksums_fit) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Places places(folder.path() / "map", 300, 4);
   const auto path = folder.path() / "map/Place.bin";
   const std::string whole = read_file(path);

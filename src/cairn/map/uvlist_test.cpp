@@ -8,10 +8,14 @@
 #include <limits>
 
 #include "cairn/core/checksum.h"
-#include "cairn/map/test_map.h"
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::TemporaryFolder;
 
 TEST(Uvlist, tells_how_a_landmark_was_seen) {
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.01, 0.04, 0.25).asDiagonal();
@@ -41,7 +45,7 @@ std::string row(std::uint32_t number, double std) {
 }
 
 TEST(Uvlist, comes_back_row_by_row) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   constexpr std::uint32_t kRows = 5000;  // more than is read at once
   std::string text = uvlist_header();
   for (std::uint32_t i = 0; i < kRows; ++i)
@@ -60,7 +64,7 @@ TEST(Uvlist, comes_back_row_by_row) {
 }
 
 TEST(Uvlist, damage_is_found) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const std::string good = uvlist_header() + row(0, 0.5) + row(1, 0.5);
   const auto message = [&](const std::string& text) -> std::string {
     write_file(folder.path() / "uvlist.txt", text);

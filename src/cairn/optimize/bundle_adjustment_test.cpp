@@ -9,11 +9,17 @@
 #include <limits>
 
 #include "cairn/core/error.h"
-#include "cairn/optimize/bundle_test_ceres.h"
-#include "cairn/optimize/bundle_test_scene.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/optimize/bundle_scene.h"
+#include "cairn/testing/optimize/ceres_bundle.h"
 
 namespace cairn {
 namespace {
+
+using testkit::BundleScene;
+using testkit::BundleSceneOptions;
+using testkit::CeresBundle;
+using testkit::make_bundle_scene;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -69,12 +75,12 @@ void expect_agreement(const PeerCase& given, std::uint64_t seed) {
   BundleScene scene = make_bundle_scene(seed, given.scene);
   BundleOptions options = precise(given.kernel);
   CeresBundle peer(scene.problem);
-  const auto summary = peer.solve(options, ceres::DENSE_SCHUR);
+  const CeresBundle::Costs theirs = peer.solve(options, CeresBundle::Schur::dense);
   const BundleReport report = adjust_bundle(scene.problem, options);
-  EXPECT_NEAR(report.cost_before / summary.initial_cost, 1, 1e-12);
-  EXPECT_LE(report.cost_after / summary.final_cost, 1 + given.cost_tolerance);
+  EXPECT_NEAR(report.cost_before / theirs.initial, 1, 1e-12);
+  EXPECT_LE(report.cost_after / theirs.final, 1 + given.cost_tolerance);
   constexpr double kEarlierStop = 1e-5;  // of Ceres, whose cost is the larger one then
-  EXPECT_GE(report.cost_after / summary.final_cost, 1 - kEarlierStop);
+  EXPECT_GE(report.cost_after / theirs.final, 1 - kEarlierStop);
   for (std::size_t i = 0; i < scene.true_cameras.size(); ++i)
     EXPECT_LT(left_perturbation(scene.problem.camera_from_world[i], peer.camera_from_world(i)).norm(),
               given.camera_tolerance);

@@ -5,11 +5,14 @@
 
 #include <Eigen/Cholesky>
 
+#include "cairn/core/executor.h"
 #include "cairn/geometry/pose_equations.h"
-#include "cairn/optimize/bundle_test_scene.h"
+#include "cairn/testing/optimize/bundle_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::make_bundle_scene;
 
 /// The damped normal equations written out, all unknowns at once, with observation_jacobian.
 struct FullEquations {

@@ -11,10 +11,13 @@
 
 #include "cairn/core/error.h"
 #include "cairn/features/kernels/available.h"
-#include "cairn/optimize/landmark_test_scene.h"
+#include "cairn/testing/optimize/landmark_scene.h"
 
 namespace cairn {
 namespace {
+
+using testkit::LandmarkScene;
+using testkit::make_landmark_scene;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 

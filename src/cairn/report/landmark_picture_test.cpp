@@ -5,11 +5,18 @@
 
 #include <cmath>
 
-#include "cairn/map/test_map.h"
+#include "cairn/core/random.h"
+#include "cairn/map/map_file.h"
 #include "cairn/report/colors.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kSceneRig;
+using testkit::observe_points;
+using testkit::TemporaryFolder;
 
 constexpr Rgb8 kStart{22, 163, 74}, kEnd{220, 38, 38}, kWeak{234, 88, 12}, kPale{148, 163, 184};
 
@@ -58,7 +65,7 @@ Pixels pixels_of(const RgbImage& picture, const Rgb8& color, int tolerance = 0) 
 }
 
 RgbImage drawn(const Map& map, const std::vector<Eigen::Matrix3d>& covariances = {}) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path() / "map", map, covariances);
   RgbImage picture = draw_landmarks(folder.path() / "map");
   EXPECT_EQ(picture, draw_landmarks(folder.path() / "map"));
@@ -155,7 +162,7 @@ TEST(LandmarkPicture, a_map_of_one_keyframe_without_landmarks_has_a_picture) {
 }
 
 TEST(FoundPosesPicture, marks_poses_by_their_verdict) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   write_map(folder.path() / "map", alley(20));
   const auto at = [](double x, double z) {
     return WorldFromCamera(Rigid3{Eigen::Quaterniond::Identity(), {x, 0, z}});

@@ -7,11 +7,17 @@
 #include <cstring>
 #include <limits>
 
-#include "cairn/map/test_map.h"
+#include "cairn/core/file.h"
+#include "cairn/map/map_file.h"
 #include "cairn/report/colors.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/map/scene_map.h"
 
 namespace cairn {
 namespace {
+
+using testkit::scene_map;
+using testkit::TemporaryFolder;
 
 constexpr std::size_t kVertexBytes = 3 * 8 + 3 + 4;
 
@@ -33,7 +39,7 @@ Vertex vertex(const std::string& ply, std::size_t i) {
 }
 
 TEST(LandmarkPly, tells_standard_deviations_by_colour) {
-  const TestFolder folder;
+  const TemporaryFolder folder;
   const Map map = scene_map();
   std::vector<Eigen::Matrix3d> covariances(map.landmarks().size(), Eigen::Matrix3d::Zero());
   const double infinite = std::numeric_limits<double>::infinity();

@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/file.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 constexpr const char* kWhole = R"(# RedKitchen
 camera: {model: pinhole, width: 640, height: 480, fx: 525.0, fy: 526.0, cx: 320.0, cy: 240.0, distortion: []}
@@ -21,7 +26,7 @@ rate_hz: 15
 )";
 constexpr const char* kCamera = "camera: {width: 8, height: 6, fx: 10, fy: 10, cx: 4, cy: 3}\n";
 
-class CalibrationTest : public testing::Test, protected TestFolder {
+class CalibrationTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] Calibration read(const std::string& text) const {
     return read_calibration(write("camera.yaml", text));

@@ -2,13 +2,22 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "cairn/core/file.h"
+#include "cairn/image/codec.h"
 #include "cairn/sequence/asl_sensor.h"
 #include "cairn/sequence/given_poses.h"
-#include "cairn/sequence/test_sequence.h"
-#include "cairn/sequence/test_stereo.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/image/wall.h"
 
 namespace cairn {
 namespace {
+
+using testkit::largest_difference;
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::see_wall;
 
 namespace fs = std::filesystem;
 
@@ -32,7 +41,7 @@ std::string sensor_yaml(const Camera& camera, const Rigid3& body_from_sensor) {
 }
 
 /// A pair that moves along a wall, in ASL layout, with the true poses of its body.
-class EurocTest : public testing::Test, protected TestFolder {
+class EurocTest : public testing::Test, protected RecordingFolder {
  protected:
   static constexpr int kFrames = 3;
 

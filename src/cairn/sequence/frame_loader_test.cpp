@@ -3,14 +3,22 @@
 
 #include <thread>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/file.h"
+#include "cairn/image/codec.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
 
+using testkit::kSmallCamera;
+using testkit::message_of;
+using testkit::RecordingFolder;
+
 namespace fs = std::filesystem;
 
-class FrameLoaderTest : public testing::Test, protected TestFolder {
+class FrameLoaderTest : public testing::Test, protected RecordingFolder {
  protected:
   FrameLoaderTest() {
     put("camera.yaml", kSmallCamera);

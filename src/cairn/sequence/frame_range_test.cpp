@@ -7,10 +7,12 @@
 #include <vector>
 
 #include "cairn/core/random.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/core/message_of.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
 
 std::vector<std::int64_t> selected(const std::string& text, std::int64_t count) {
   const FrameRange range = parse_frame_range(text, "--frames");

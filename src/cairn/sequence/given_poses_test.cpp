@@ -4,17 +4,24 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
 
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
+
 namespace fs = std::filesystem;
 
-class GivenPosesTest : public testing::Test, protected TestFolder {
+class GivenPosesTest : public testing::Test, protected RecordingFolder {
  protected:
   /// The x of each pose, -1 where there is none.
   static std::vector<double> xs(const Sequence& sequence, const GivenPosesOptions& options) {

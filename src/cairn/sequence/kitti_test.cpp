@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <functional>
 #include <string>
@@ -9,6 +8,7 @@
 #include "cairn/image/codec.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/sequence/write_kitti.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -23,11 +23,10 @@ constexpr const char* kPoses =
 class KittiTest : public testing::Test {
  protected:
   KittiTest() { make_good(); }
-  ~KittiTest() override { fs::remove_all(folder_); }
 
   /// Three frames, numbers with a gap.
   void make_good() const {
-    fs::remove_all(folder_);
+    temporary_.clear();
     for (const char* camera : {"image_0", "image_1"}) {
       fs::create_directories(folder_ / camera);
       for (const char* name : {"000005.png", "000006.png", "000009.png"})
@@ -37,9 +36,10 @@ class KittiTest : public testing::Test {
     write("times.txt", "0.000000e+00\n1.036e-01\n4.1e-01\n");
     write("poses.txt", kPoses);
   }
-  void write(const char* name, const std::string& text) const { write_file(folder_ / name, text); }
+  void write(const char* name, const std::string& text) const { temporary_.write(name, text); }
 
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("cairn_kitti_" + std::to_string(::getpid()));
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 TEST_F(KittiTest, reads_frames_calibration_and_truth) {
@@ -239,8 +239,7 @@ TEST_F(KittiTest, refuses_broken_texts) {
 }
 
 TEST_F(KittiTest, simulated_street_is_read_back) {
-  fs::remove_all(folder_);
-  fs::create_directories(folder_);
+  temporary_.clear();
   SimulateStreetOptions options;
   options.camera.width = 124;
   options.camera.height = 38;

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "cairn/core/error.h"
 #include "cairn/sequence/formats.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
 
+using testkit::kSmallCamera;
+using testkit::message_of;
+using testkit::RecordingFolder;
+
 namespace fs = std::filesystem;
 
-class NumberedTest : public testing::Test, protected TestFolder {
+class NumberedTest : public testing::Test, protected RecordingFolder {
  protected:
   NumberedTest() {
     put("camera.yaml", kSmallCamera);

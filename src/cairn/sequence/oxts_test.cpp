@@ -2,13 +2,25 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/error.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
+
+using testkit::earth_centred;
+using testkit::earth_from_enu;
+using testkit::forward_camera_on_flu;
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
 
 namespace fs = std::filesystem;
 
@@ -23,7 +35,7 @@ std::string packet(double latitude_deg, double longitude_deg, double height_m, c
                      longitude_deg, height_m, angles, accuracy);
 }
 
-class OxtsTest : public testing::Test, protected TestFolder {
+class OxtsTest : public testing::Test, protected RecordingFolder {
  protected:
   OxtsTest() { make_good(); }
   void make_good() const {

@@ -2,17 +2,25 @@
 // Files of poses whose columns are named: the names decide, whatever their order.
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
+
+using testkit::forward_camera_on_frd;
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
 
 /// A rotation that every other order of its components turns into another one.
 const Eigen::Quaterniond kRotation(0.8, 0.2, -0.4, 0.4);  // w x y z
 const Rigid3 kPose{kRotation, {1, 2, 3}};
 
-class PoseNamesTest : public testing::Test, protected TestFolder {
+class PoseNamesTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] GivenPoses read(const std::string& text, const char* name = "poses.txt") const {
     GivenPosesOptions options;

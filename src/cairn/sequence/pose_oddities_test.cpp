@@ -3,17 +3,25 @@
 // jumps, another clock.
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
+
+using testkit::forward_camera_on_frd;
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
 
 namespace fs = std::filesystem;
 
 using Texts = std::vector<std::string>;
 
-class PoseOdditiesTest : public testing::Test, protected TestFolder {
+class PoseOdditiesTest : public testing::Test, protected RecordingFolder {
  protected:
   PoseOdditiesTest() { sequence_.calibration.body_from_camera = forward_camera_on_frd(); }
   [[nodiscard]] GivenPoses read(const fs::path& path, GivenPosesOptions options = {}) const {

@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
 
+using testkit::earth_centred;
+using testkit::earth_from_enu;
+using testkit::forward_camera_on_frd;
+using testkit::message_of;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
+
 constexpr double kDegree = std::numbers::pi / 180;
 
-class PoseTableTest : public testing::Test, protected TestFolder {
+class PoseTableTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] GivenPoses read(const std::string& text, const char* format = "TUM") const {
     Sequence sequence = sequence_of(format, {0, 1, 2}, 10);

@@ -4,19 +4,26 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "cairn/core/random.h"
 #include "cairn/sequence/attitude.h"
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/image/recording_folder.h"
+#include "cairn/testing/sequence/listed_frames.h"
 
 namespace cairn {
 namespace {
 
+using testkit::earth_centred;
+using testkit::RecordingFolder;
+using testkit::sequence_of;
+
 constexpr int kSamples = 20'000;
 
-class PoseUncertaintyTest : public testing::Test, protected TestFolder {
+class PoseUncertaintyTest : public testing::Test, protected RecordingFolder {
  protected:
   /// One row per frame at 1 Hz: numbers, then the same standard deviations in all.
   [[nodiscard]] GivenPoses read(const std::string& places, const std::string& rows, std::size_t count) const {

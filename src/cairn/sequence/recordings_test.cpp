@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "cairn/sequence/given_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
 
 namespace cairn {
 namespace {

@@ -5,10 +5,15 @@
 
 #include <cmath>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kSmallCamera;
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 namespace fs = std::filesystem;
 
@@ -19,7 +24,7 @@ constexpr const char* kCalibrationRemedy =
     "--camera tum-fr1, tum-fr2 or tum-fr3.";
 
 /// Ten numbered frames 100, 110, ... 190.
-class SequenceTest : public testing::Test, protected TestFolder {
+class SequenceTest : public testing::Test, protected RecordingFolder {
  protected:
   SequenceTest() {
     put("camera.yaml", kSmallCamera);

@@ -11,10 +11,14 @@
 
 #include "cairn/core/error.h"
 #include "cairn/sequence/setting_table.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 struct Fields {
   double threshold = 1.5;
@@ -47,7 +51,7 @@ std::string warning_of(Fields& fields, const std::string& key, const std::string
   return table_of(fields).apply({key, value, "--set", 0});
 }
 
-class SettingsTest : public testing::Test, protected TestFolder {
+class SettingsTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] Fields read(const std::string& text) const {
     Fields fields;

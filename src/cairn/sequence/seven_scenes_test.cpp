@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
+
+using testkit::kSmallCamera;
+using testkit::message_of;
+using testkit::RecordingFolder;
 
 namespace fs = std::filesystem;
 
 /// A quarter turn about z, then a shift.
 constexpr const char* kPose = "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n";
 
-class SevenScenesTest : public testing::Test, protected TestFolder {
+class SevenScenesTest : public testing::Test, protected RecordingFolder {
  protected:
   SevenScenesTest() {
     put("camera.yaml", kSmallCamera);

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/core/error.h"
+#include "cairn/core/progress.h"
+#include "cairn/testing/core/message_of.h"
 
 namespace cairn {
 namespace {
+
+using testkit::message_of;
 
 class Listener : public Progress {
  public:

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_poses.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
 
-class TrajectoryFileTest : public testing::Test, protected TestFolder {};
+using testkit::message_of;
+using testkit::RecordingFolder;
+
+class TrajectoryFileTest : public testing::Test, protected RecordingFolder {};
 
 TEST_F(TrajectoryFileTest, every_format_is_recognised) {
   struct Case {

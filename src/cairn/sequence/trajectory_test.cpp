@@ -4,12 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "cairn/core/random.h"
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
 
-class TrajectoryTest : public testing::Test, protected TestFolder {};
+using testkit::message_of;
+using testkit::RecordingFolder;
+
+class TrajectoryTest : public testing::Test, protected RecordingFolder {};
 
 TEST_F(TrajectoryTest, reads_stamps_translations_and_quaternions) {
   const Trajectory read = read_tum_trajectory(

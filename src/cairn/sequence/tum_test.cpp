@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "cairn/sequence/test_sequence.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/message_of.h"
+#include "cairn/testing/image/recording_folder.h"
 
 namespace cairn {
 namespace {
 
+using testkit::kSmallCamera;
+using testkit::message_of;
+using testkit::RecordingFolder;
+
 namespace fs = std::filesystem;
 
-class TumTest : public testing::Test, protected TestFolder {
+class TumTest : public testing::Test, protected RecordingFolder {
  protected:
   TumTest() { make_good(); }
 

@@ -2,13 +2,13 @@
 #include "cairn/sequence/write_tum.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <map>
 #include <string>
 
 #include "cairn/core/file.h"
 #include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
 namespace {
@@ -24,20 +24,11 @@ SimulateRoomOptions tiny_room() {
 
 class WriteTumTest : public testing::Test {
  protected:
-  WriteTumTest() { fs::create_directories(folder_); }
-  ~WriteTumTest() override { fs::remove_all(folder_); }
+  /// Returns every file's name and bytes.
+  std::map<std::string, std::string> contents() const { return testkit::contents_of(folder_); }
 
-  /// Every file's name and bytes.
-  std::map<std::string, std::string> contents() const {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-      if (entry.is_regular_file())
-        files[fs::relative(entry.path(), folder_).string()] = read_file(entry.path());
-    }
-    return files;
-  }
-
-  const fs::path folder_ = fs::path(testing::TempDir()) / ("cairn_write_tum_" + std::to_string(::getpid()));
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   Progress silent_;
 };
 

@@ -7,7 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/map/point_world.h"
 
 namespace cairn {
 namespace {
@@ -27,9 +28,9 @@ Rigid3 place(double k) {
 /// Five keyframes, each with a landmark of its own and the one before as its parent; 0 and 3 share 100.
 Map five_keyframes() {
   constexpr std::int32_t kShared = 100;
-  Map map(test::kRig, "ORB");
+  Map map(testkit::kWorldRig, "ORB");
   for (std::int32_t k = 0; k < 5; ++k) {
-    const KeyframeId id = map.add_keyframe(test::blank_frame(kShared + 1), place(k), {k - 1}, 0);
+    const KeyframeId id = map.add_keyframe(testkit::blank_frame(kShared + 1), place(k), {k - 1}, 0);
     (void)map.add_landmark(place(k) * Eigen::Vector3d(0, 0, 2), {id, kShared});
   }
   for (std::int32_t i = 0; i < kShared; ++i) {
@@ -40,7 +41,7 @@ Map five_keyframes() {
 }
 
 PoseGraph::Edge loop_between(std::int64_t a, std::int64_t b) {
-  return {a, b, test::aside(1), Matrix6d::Identity(), false};
+  return {a, b, testkit::aside(1), Matrix6d::Identity(), false};
 }
 
 TEST(EssentialGraph, joins_parents_and_keyframes_that_share_much) {
@@ -77,7 +78,7 @@ TEST(EssentialGraph, an_erased_keyframe_leaves_its_children_to_its_parent) {
 
 TEST(EssentialGraph, keeps_to_its_part_and_to_loops_within) {
   Map map = five_keyframes();
-  const KeyframeId other = map.add_keyframe(test::blank_frame(1), {}, {}, 1);
+  const KeyframeId other = map.add_keyframe(testkit::blank_frame(1), {}, {}, 1);
   const std::vector<PoseGraph::Edge> loops = {loop_between(1, other.value), loop_between(0, 4)};
   const PoseGraph graph = essential_graph(map, 0, loops);
   EXPECT_EQ(pairs_of(graph), (Pairs{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {0, 3}, {0, 4}}));
@@ -100,13 +101,13 @@ TEST(EssentialGraph, of_a_part_without_keyframes_is_empty) {
 }
 
 TEST(EdgeInformation, knows_less_of_far_scenes) {
-  Map map(test::kRig, "ORB");
+  Map map(testkit::kWorldRig, "ORB");
   for (const double depth : {1.0, 4.0}) {
-    ObservedFrame observed = test::blank_frame(1);
+    ObservedFrame observed = testkit::blank_frame(1);
     observed.points_in_camera[0] = {0, 0, depth};
     (void)map.add_keyframe(std::move(observed), {}, {}, 0);
   }
-  const KeyframeId without_depth = map.add_keyframe(test::blank_frame(1), {}, {}, 0);
+  const KeyframeId without_depth = map.add_keyframe(testkit::blank_frame(1), {}, {}, 0);
   EXPECT_GT(edge_information(map, {0})(0, 0), 5 * edge_information(map, {1})(0, 0));
   EXPECT_EQ(edge_information(map, {0})(3, 3), edge_information(map, {1})(3, 3));
   EXPECT_TRUE(edge_information(map, without_depth).allFinite());
@@ -127,7 +128,7 @@ TEST(MoveTo, landmarks_go_with_the_first_keyframe_that_shows_them) {
 
 TEST(MoveTo, keeps_landmarks_of_other_parts) {
   Map map = five_keyframes();
-  const KeyframeId other = map.add_keyframe(test::blank_frame(1), place(9), {}, 1);
+  const KeyframeId other = map.add_keyframe(testkit::blank_frame(1), place(9), {}, 1);
   const LandmarkId landmark = map.add_landmark({1, 2, 3}, {other, 0});
   PoseGraph graph = essential_graph(map, 0, {});
   for (auto& vertex : graph.vertices) vertex.world_from_vertex.translation.z() += 1;
@@ -137,8 +138,8 @@ TEST(MoveTo, keeps_landmarks_of_other_parts) {
 
 TEST(MovePart, moves_all_of_a_part_into_another) {
   Map map = five_keyframes();
-  const KeyframeId other = map.add_keyframe(test::blank_frame(2), place(9), {}, 1);
-  const KeyframeId erased = map.add_keyframe(test::blank_frame(2), place(10), other, 1);
+  const KeyframeId other = map.add_keyframe(testkit::blank_frame(2), place(9), {}, 1);
+  const KeyframeId erased = map.add_keyframe(testkit::blank_frame(2), place(10), other, 1);
   const LandmarkId landmark = map.add_landmark({1, 2, 3}, {other, 0});
   const Eigen::Vector3d kept = map[LandmarkId{0}].point_in_world;
   map.erase(erased);

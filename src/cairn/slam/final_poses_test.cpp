@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
@@ -16,10 +18,10 @@ struct TrackedRun {
     for (int k = 0; k < count; ++k) remember(k);
   }
 
-  static Rigid3 truth(int k) { return test::aside(0.01 * (k + 1)); }
+  static Rigid3 truth(int k) { return testkit::aside(0.01 * (k + 1)); }
 
   void remember(int k) {
-    const test::View view = maker.world.see(truth(k), k + 1);
+    const testkit::View view = maker.world.see(truth(k), k + 1);
     TrackedFrame tracked;
     for (const std::size_t point : view.points) tracked.landmarks.push_back(maker.known[point].landmark);
     FrameTrack track;
@@ -36,7 +38,7 @@ struct TrackedRun {
     return motion_norm(pose.inverse() * truth(k));
   }
 
-  test::MapMaker maker{test::points_ahead(400, 5)};
+  testkit::MapMaker maker{testkit::points_ahead(400, 5)};
   FrameMemory memory;
   std::vector<FrameTrack> frames;
 };

@@ -4,17 +4,19 @@
 #include <gtest/gtest.h>
 
 #include "cairn/core/error.h"
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/map/point_world.h"
 
 namespace cairn {
 namespace {
 
 /// Three keyframes of one world, the second of them erased.
 IndexedMap three_keyframes() {
-  const test::World world = test::points_ahead(200, 3);
-  IndexedMap indexed(Map(test::kRig, "ORB"));
+  const testkit::PointWorld world = testkit::points_ahead(200, 3);
+  IndexedMap indexed(Map(testkit::kWorldRig, "ORB"));
   for (std::int32_t k = 0; k < 3; ++k)
-    (void)indexed.add_keyframe(world.see(test::aside(0.1 * k), k).observed, test::aside(0.1 * k), {k - 1}, 0);
+    (void)indexed.add_keyframe(world.see(testkit::aside(0.1 * k), k).observed, testkit::aside(0.1 * k),
+                               {k - 1}, 0);
   indexed.erase({1});
   return indexed;
 }

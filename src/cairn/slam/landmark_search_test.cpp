@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
@@ -16,7 +17,7 @@ constexpr double kRadius = 4;
 /// A point two metres ahead; what is predicted for it when it was seen from `centre`, 10 px large.
 std::optional<PredictedPlace> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
   const ObservedFrame observed;
-  const PosedFrame view{test::kRig, observed, {}};
+  const PosedFrame view{testkit::kWorldRig, observed, {}};
   Appearance appearance;
   appearance.keypoint.size = 10;
   appearance.keypoint.sigma_px = sigma_px;
@@ -33,8 +34,8 @@ Eigen::Vector3d seen_aside(double degrees) {
 TEST(PredictPlace, is_where_the_point_projects_to) {
   const auto place = predict_from({0, 0, 0});
   ASSERT_TRUE(place);
-  EXPECT_DOUBLE_EQ(place->u, test::kRig.cx);
-  EXPECT_DOUBLE_EQ(place->v, test::kRig.cy);
+  EXPECT_DOUBLE_EQ(place->u, testkit::kWorldRig.cx);
+  EXPECT_DOUBLE_EQ(place->v, testkit::kWorldRig.cy);
   EXPECT_DOUBLE_EQ(place->radius_px, kRadius);
   EXPECT_LT(place->min_size, 10);
   EXPECT_GT(place->max_size, 10);
@@ -42,7 +43,7 @@ TEST(PredictPlace, is_where_the_point_projects_to) {
 
 TEST(PredictPlace, is_nowhere_behind_the_camera) {
   const ObservedFrame observed;
-  const PosedFrame view{test::kRig, observed, {}};
+  const PosedFrame view{testkit::kWorldRig, observed, {}};
   Appearance appearance;
   appearance.centre_in_world = {0, 0, 2};  // looking back
   EXPECT_FALSE(predict_place(view, {0, 0, -1}, appearance, kRadius));
@@ -75,15 +76,15 @@ TEST(PredictPlace, grows_when_the_point_is_nearer) {
 }
 
 /// Keyframes 0 and 1, half a metre apart, with all that they see as landmarks.
-test::MapMaker two_keyframes() {
-  test::MapMaker maker(test::points_ahead(400, 1));
-  (void)maker.add(test::aside(0));
-  (void)maker.add(test::aside(0.5));
+testkit::MapMaker two_keyframes() {
+  testkit::MapMaker maker(testkit::points_ahead(400, 1));
+  (void)maker.add(testkit::aside(0));
+  (void)maker.add(testkit::aside(0.5));
   return maker;
 }
 
 TEST(LandmarkSearch, the_look_is_that_of_the_nearest_keyframe) {
-  const test::MapMaker maker = two_keyframes();
+  const testkit::MapMaker maker = two_keyframes();
   const Map& map = maker.map;
   int count = 0;
   for (const LandmarkId id : map.landmark_ids()) {
@@ -99,8 +100,8 @@ TEST(LandmarkSearch, the_look_is_that_of_the_nearest_keyframe) {
 }
 
 struct Search {
-  test::MapMaker maker = two_keyframes();
-  test::View seen = maker.world.see(test::aside(0.25), 2);
+  testkit::MapMaker maker = two_keyframes();
+  testkit::View seen = maker.world.see(testkit::aside(0.25), 2);
 
   [[nodiscard]] LandmarkId landmark_at(std::int32_t feature) const {
     return maker.known[seen.points[static_cast<std::size_t>(feature)]].landmark;
@@ -108,7 +109,7 @@ struct Search {
   /// All landmarks, from a pose that is `aside_m` wrong.
   [[nodiscard]] std::vector<FoundPoint> find(std::span<const LandmarkId> occupied = {},
                                              double aside_m = 0) const {
-    const PosedFrame frame{maker.map.rig(), seen.observed, test::aside(0.25 + aside_m).inverse()};
+    const PosedFrame frame{maker.map.rig(), seen.observed, testkit::aside(0.25 + aside_m).inverse()};
     return find_landmarks(maker.map, maker.map.landmark_ids(), frame, kRadius, occupied);
   }
 };
@@ -139,14 +140,14 @@ TEST(LandmarkSearch, finds_nothing_where_it_is_not_seen) {
 
 TEST(LandmarkSearch, finds_nothing_that_looks_different) {
   Search search;
-  for (test::WorldPoint& point : search.maker.world.points) point.look += 1000;
-  search.seen = search.maker.world.see(test::aside(0.25), 2);
+  for (testkit::WorldPoint& point : search.maker.world.points) point.look += 1000;
+  search.seen = search.maker.world.see(testkit::aside(0.25), 2);
   EXPECT_TRUE(search.find().empty());
 }
 
 TEST(LandmarkSearch, without_landmarks_there_is_nothing_to_find) {
   const Search search;
-  const PosedFrame frame{search.maker.map.rig(), search.seen.observed, test::aside(0.25).inverse()};
+  const PosedFrame frame{search.maker.map.rig(), search.seen.observed, testkit::aside(0.25).inverse()};
   EXPECT_TRUE(find_landmarks(search.maker.map, {}, frame, kRadius).empty());
 }
 
@@ -155,7 +156,7 @@ TEST(LandmarkSearch, without_landmarks_there_is_nothing_to_find) {
 TEST(GuidedSearch, keeps_the_numbers_and_widens_single_windows) {
   const Search search;
   const Map& map = search.maker.map;
-  const PosedFrame frame{map.rig(), search.seen.observed, test::aside(0.30).inverse()};
+  const PosedFrame frame{map.rig(), search.seen.observed, testkit::aside(0.30).inverse()};
   const auto ids = map.landmark_ids();
   const auto count = [&](double extra_px) {
     GuidedSearch guided(frame, 1);

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/map/point_world.h"
 
 namespace cairn {
 namespace {
@@ -11,10 +11,10 @@ namespace {
 /// Five keyframes in a row; keyframe k shows landmarks 10 k to 10 k + 29, so neighbours share 20, the
 /// next 10.
 Map chain() {
-  Map map(test::kRig, "ORB");
+  Map map(testkit::kWorldRig, "ORB");
   std::vector<LandmarkId> landmarks(70);
   for (std::int32_t k = 0; k < 5; ++k) {
-    const KeyframeId id = map.add_keyframe(test::blank_frame(30), {}, {k - 1}, 0);
+    const KeyframeId id = map.add_keyframe(testkit::blank_frame(30), {}, {k - 1}, 0);
     for (std::int32_t i = 0; i < 30; ++i) {
       LandmarkId& landmark = landmarks[static_cast<std::size_t>(k) * 10 + static_cast<std::size_t>(i)];
       if (landmark.valid()) {
@@ -63,8 +63,8 @@ TEST(LocalMap, landmarks_of_keyframes_come_once_each) {
 }
 
 TEST(LocalMap, a_landmark_is_given_up_when_it_is_not_seen_again_in_time) {
-  Map map(test::kRig, "ORB");
-  for (std::int32_t k = 0; k < 5; ++k) (void)map.add_keyframe(test::blank_frame(3), {}, {k - 1}, 0);
+  Map map(testkit::kWorldRig, "ORB");
+  for (std::int32_t k = 0; k < 5; ++k) (void)map.add_keyframe(testkit::blank_frame(3), {}, {k - 1}, 0);
   const LandmarkId lonely = map.add_landmark({0, 0, 0}, {KeyframeId{1}, 0}),
                    seen_again = map.add_landmark({0, 0, 0}, {KeyframeId{0}, 1});
   map.add_sighting(seen_again, {KeyframeId{1}, 1});

@@ -8,7 +8,10 @@
 #include <numbers>
 #include <utility>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
@@ -25,8 +28,8 @@ Rigid3 on_circle(double k) {
 }
 
 /// A round room.
-test::World round_room() {
-  test::World world;
+testkit::PointWorld round_room() {
+  testkit::PointWorld world;
   Random random(11);
   for (int i = 0; i < 3500; ++i) {
     const double angle = random.uniform(0, 2 * std::numbers::pi), radius = random.uniform(5, 6.5);
@@ -38,7 +41,7 @@ test::World round_room() {
 /// A walk whose odometry drifts, keyframe by keyframe handed to a loop closer.
 class Walk {
  public:
-  explicit Walk(test::World world, const Rigid3& drift = {}, int threads = 1)
+  explicit Walk(testkit::PointWorld world, const Rigid3& drift = {}, int threads = 1)
       : drift_(drift),
         executor_(threads),
         maker_(std::move(world), kMemory),
@@ -68,16 +71,16 @@ class Walk {
   [[nodiscard]] Rigid3 pose(std::size_t k) const {
     return map().world_from_camera({static_cast<std::int32_t>(k)});
   }
-  [[nodiscard]] double error(std::size_t k) const { return test::distance(pose(k), truths_[k]); }
+  [[nodiscard]] double error(std::size_t k) const { return testkit::distance(pose(k), truths_[k]); }
   [[nodiscard]] double odometry_error(std::size_t k) const {
-    return test::distance(odometry_[k], truths_[k]);
+    return testkit::distance(odometry_[k], truths_[k]);
   }
 
   /// The largest distance of a keyframe from where odometry put it, metres.
   [[nodiscard]] double largest_move() const {
     double largest = 0;
     for (std::size_t k = 0; k < odometry_.size(); ++k)
-      largest = std::max(largest, test::distance(pose(k), odometry_[k]));
+      largest = std::max(largest, testkit::distance(pose(k), odometry_[k]));
     return largest;
   }
 
@@ -85,7 +88,7 @@ class Walk {
   Rigid3 drift_;
   SlamOptions options_;
   Executor executor_;
-  test::MapMaker maker_;
+  testkit::MapMaker maker_;
   LoopCloser closer_;
   std::vector<Rigid3> truths_, odometry_;
 };
@@ -136,17 +139,17 @@ TEST(LoopCloser, is_the_same_at_any_number_of_threads) {
 
 /// Keyframe `there` and those around it see what keyframe `here` and those around it see, from the same side
 /// and distance: nothing in the images tells the two places apart.
-test::World with_repetition(double here, double there) {
+testkit::PointWorld with_repetition(double here, double there) {
   constexpr double kHalfWidth = 2;  // metres: as much as a keyframe sees
-  test::World world = round_room();
+  testkit::PointWorld world = round_room();
   const auto is_before = [&](double k, const Eigen::Vector3d& point) {
     const Eigen::Vector3d in_camera = on_circle(k).inverse() * point;
     return in_camera.z() > 0 && std::abs(in_camera.x()) < kHalfWidth;
   };
   std::erase_if(world.points,
-                [&](const test::WorldPoint& point) { return is_before(there, point.position); });
+                [&](const testkit::WorldPoint& point) { return is_before(there, point.position); });
   const Rigid3 there_from_here = on_circle(there) * on_circle(here).inverse();
-  for (const test::WorldPoint& point : std::vector<test::WorldPoint>(world.points))
+  for (const testkit::WorldPoint& point : std::vector<testkit::WorldPoint>(world.points))
     if (is_before(here, point.position))
       world.points.push_back({there_from_here * point.position, point.look});
   return world;
@@ -165,18 +168,18 @@ TEST(WrongLoops, a_place_that_repeats_itself_across_the_room_bends_nothing) {
 /// what keyframes 0 and 1 saw, these many metres aside.
 constexpr int kBack = kTurn;
 
-test::World with_things_moved(const std::vector<double>& asides) {
+testkit::PointWorld with_things_moved(const std::vector<double>& asides) {
   constexpr std::uint64_t kOtherLooks = 100000;
-  test::World world = round_room();
-  const std::vector<test::WorldPoint> room = world.points;
-  for (test::WorldPoint& point : world.points) point.last_frame = kBack - 4;
-  for (const test::WorldPoint& point : room)
+  testkit::PointWorld world = round_room();
+  const std::vector<testkit::WorldPoint> room = world.points;
+  for (testkit::WorldPoint& point : world.points) point.last_frame = kBack - 4;
+  for (const testkit::WorldPoint& point : room)
     world.points.push_back({point.position, point.look + kOtherLooks, kBack - 3});
   for (std::size_t k = 0; k < asides.size(); ++k) {
     const Rigid3 camera = on_circle(static_cast<double>(k));
-    const Rigid3 moved = camera * test::aside(asides[k]) * camera.inverse();
+    const Rigid3 moved = camera * testkit::aside(asides[k]) * camera.inverse();
     const std::int32_t frame = kBack + static_cast<std::int32_t>(k);
-    for (const test::WorldPoint& point : room)
+    for (const testkit::WorldPoint& point : room)
       world.points.push_back({moved * point.position, point.look, frame, frame});
   }
   return world;
@@ -202,19 +205,19 @@ TEST(WrongLoops, two_keyframes_that_contradict_bend_nothing) {
 /// the wall as it was, moved by 1.2 m: less than odometry may drift, more than ten steps of it can give way.
 TEST(WrongLoops, what_strains_the_graph_bends_nothing) {
   constexpr std::uint64_t kOtherLooks = 100000;
-  test::World world;
+  testkit::PointWorld world;
   Random random(14);
   for (int i = 0; i < 1500; ++i)
     world.add({random.uniform(-3, 8), random.uniform(-2, 2), random.uniform(2, 5)});
-  const std::vector<test::WorldPoint> wall = world.points;
-  for (test::WorldPoint& point : world.points) point.last_frame = 6;
-  for (const test::WorldPoint& point : wall) {
+  const std::vector<testkit::WorldPoint> wall = world.points;
+  for (testkit::WorldPoint& point : world.points) point.last_frame = 6;
+  for (const testkit::WorldPoint& point : wall) {
     world.points.push_back({point.position, point.look + kOtherLooks, 7});
-    world.points.push_back({test::aside(1.2) * point.position, point.look, 10});
+    world.points.push_back({testkit::aside(1.2) * point.position, point.look, 10});
   }
   Walk walk(world);
   for (const double x : {0.0, 0.8, 1.6, 2.4, 3.2, 4.0, 3.2, 2.4, 1.6, 0.8, 0.0, 0.1})
-    EXPECT_FALSE(walk.step_to(test::aside(x)));
+    EXPECT_FALSE(walk.step_to(testkit::aside(x)));
   EXPECT_GE(walk.report().verified, 2) << "else nothing was shown";
   EXPECT_GE(walk.report().rejected, 1);
   EXPECT_TRUE(walk.closer().edges().empty());
@@ -225,7 +228,7 @@ TEST(WrongLoops, what_strains_the_graph_bends_nothing) {
 TEST(WrongLoops, two_keyframes_that_agree_are_believed) {
   Walk walk(with_things_moved({0.3, 0.3}));
   EXPECT_TRUE(walk.go_round(kBack + 4));
-  EXPECT_NEAR(test::distance(walk.pose(kBack + 1), on_circle(kBack + 1)), 0.3, 0.1);
+  EXPECT_NEAR(testkit::distance(walk.pose(kBack + 1), on_circle(kBack + 1)), 0.3, 0.1);
 }
 
 }  // namespace

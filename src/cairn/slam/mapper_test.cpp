@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/map/point_world.h"
 
 namespace cairn {
 namespace {
@@ -34,11 +36,11 @@ struct Mapping {
   }
   KeyframeId add(const Rigid3& truth, KeyframeId parent) { return add(truth, truth, parent); }
 
-  test::World world = test::points_ahead(500, 13);
+  testkit::PointWorld world = testkit::points_ahead(500, 13);
   std::int32_t frame = 0;
   SlamOptions options;
   Executor executor;
-  IndexedMap indexed{Map(test::kRig, "ORB")};
+  IndexedMap indexed{Map(testkit::kWorldRig, "ORB")};
   Map& map = indexed.edit();
   const PlaceIndex& places = indexed.places();
   StageTimes times;
@@ -47,8 +49,8 @@ struct Mapping {
 
 TEST(Mapper, the_first_frame_with_depth_begins_the_map) {
   Mapping mapping;
-  EXPECT_FALSE(mapping.mapper.begin_part(test::blank_frame(500)));
-  const auto first = mapping.begin(test::aside(3));
+  EXPECT_FALSE(mapping.mapper.begin_part(testkit::blank_frame(500)));
+  const auto first = mapping.begin(testkit::aside(3));
   ASSERT_TRUE(first);
   EXPECT_EQ(mapping.map[*first].world_from_camera.translation.norm(), 0) << "the world is its camera";
   EXPECT_EQ(mapping.map.landmark_ids().size(), mapping.map[*first].observed.observations.size());
@@ -84,10 +86,10 @@ TEST(Mapper, the_world_stays_where_the_first_keyframe_was) {
   KeyframeId last = first;
   for (int k = 1; k < 4; ++k) {
     (void)mapping.mapper.take_over();
-    last = mapping.add(test::aside(0.1 * k), test::aside(0.11 * k), last);
+    last = mapping.add(testkit::aside(0.1 * k), testkit::aside(0.11 * k), last);
   }
   (void)mapping.mapper.take_over();
-  mapping.map.move(first, test::aside(0.02));  // as a window may that holds others
+  mapping.map.move(first, testkit::aside(0.02));  // as a window may that holds others
   mapping.mapper.finish();
   EXPECT_LT(motion_norm(mapping.map[first].world_from_camera), 1e-9);
 }
@@ -95,7 +97,7 @@ TEST(Mapper, the_world_stays_where_the_first_keyframe_was) {
 TEST(Mapper, a_keyframe_shares_landmarks_and_brings_its_own) {
   Mapping mapping;
   const auto first = mapping.begin({});
-  const KeyframeId second = mapping.add(test::aside(0.4), *first);
+  const KeyframeId second = mapping.add(testkit::aside(0.4), *first);
   int shared = 0, own = 0;
   for (const LandmarkId id : mapping.map[second].landmarks) {
     ASSERT_TRUE(id.valid());
@@ -112,14 +114,14 @@ TEST(Mapper, an_adjustment_is_taken_over_after_its_lag) {
     Mapping mapping(threads);
     const auto first = mapping.begin({});
     EXPECT_FALSE(mapping.mapper.take_over_if_due()) << "none under way";
-    const Rigid3 truth = test::aside(0.3), wrong{rotation_exp({0, 0.001, 0}), {0.304, 0, 0}};
+    const Rigid3 truth = testkit::aside(0.3), wrong{rotation_exp({0, 0.001, 0}), {0.304, 0, 0}};
     const KeyframeId second = mapping.add(truth, wrong, *first);
     for (int i = 0; i < mapping.options.mapping.window_lag; ++i) {
       EXPECT_FALSE(mapping.mapper.take_over_if_due());
       EXPECT_EQ(mapping.map[second].world_from_camera.translation, wrong.translation);
     }
     EXPECT_TRUE(mapping.mapper.take_over_if_due());
-    EXPECT_LT(test::distance(mapping.map[second].world_from_camera, truth), 1.5e-3);
+    EXPECT_LT(testkit::distance(mapping.map[second].world_from_camera, truth), 1.5e-3);
     EXPECT_FALSE(mapping.mapper.take_over()) << "once";
     EXPECT_EQ(mapping.times.window.size(), 1U);
   }
@@ -130,7 +132,7 @@ TEST(Mapper, redundant_keyframes_leave_the_places_too) {
   KeyframeId last = *mapping.begin({});
   for (int k = 1; k < 8; ++k) {
     (void)mapping.mapper.take_over();
-    last = mapping.add(test::aside(0.01 * k), last);
+    last = mapping.add(testkit::aside(0.01 * k), last);
   }
   const auto kept = mapping.map.keyframe_ids();
   EXPECT_LT(kept.size(), 8U);
@@ -142,7 +144,7 @@ TEST(Mapper, the_graphs_are_odometry_before_and_the_map_after) {
   Mapping mapping;
   const KeyframeId first = *mapping.begin({});
   const Rigid3 tracked_at{rotation_exp({0, 0.001, 0}), {0.304, 0, 0}};
-  const KeyframeId second = mapping.add(test::aside(0.3), tracked_at, first);
+  const KeyframeId second = mapping.add(testkit::aside(0.3), tracked_at, first);
   mapping.mapper.finish();
   PoseGraph before, after;
   const std::vector<PoseGraph::Edge> loops{{second.value, first.value, {}, Matrix6d::Identity(), false}};
@@ -153,7 +155,7 @@ TEST(Mapper, the_graphs_are_odometry_before_and_the_map_after) {
   EXPECT_LT(motion_norm(before.vertices[1].world_from_vertex.inverse() * tracked_at), 1e-12);
   EXPECT_EQ(after.vertices[1].world_from_vertex.translation,
             mapping.map[second].world_from_camera.translation);
-  EXPECT_LT(test::distance(after.vertices[1].world_from_vertex, test::aside(0.3)), 1.5e-3);
+  EXPECT_LT(testkit::distance(after.vertices[1].world_from_vertex, testkit::aside(0.3)), 1.5e-3);
   EXPECT_EQ(before.fixed, (std::vector<std::int64_t>{first.value}));
 }
 
@@ -161,7 +163,7 @@ TEST(Mapper, odometry_leaves_the_whole_unadjusted) {
   Mapping mapping;
   mapping.options.odometry = true;
   const KeyframeId first = *mapping.begin({});
-  (void)mapping.add(test::aside(0.3), first);
+  (void)mapping.add(testkit::aside(0.3), first);
   mapping.mapper.finish();
   EXPECT_TRUE(mapping.times.global.empty());
 }

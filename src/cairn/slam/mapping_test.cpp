@@ -5,22 +5,23 @@
 
 #include <algorithm>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
 
 TEST(AddKeyframe, shows_the_landmarks_it_was_tracked_by) {
-  IndexedMap indexed(Map(test::kRig, "ORB"));
+  IndexedMap indexed(Map(testkit::kWorldRig, "ORB"));
   Map& map = indexed.edit();
-  const KeyframeId first = indexed.add_keyframe(test::blank_frame(4), {}, {}, 0);
+  const KeyframeId first = indexed.add_keyframe(testkit::blank_frame(4), {}, {}, 0);
   const LandmarkId seen = map.add_landmark({0, 0, 0}, {first, 0}),
                    gone = map.add_landmark({0, 0, 0}, {first, 1});
   map.erase(gone);
   TrackedFrame tracked;
-  tracked.world_from_camera = test::aside(2);
+  tracked.world_from_camera = testkit::aside(2);
   tracked.landmarks = {{}, seen, gone, seen};  // as a landmark that two others have become
-  const KeyframeId id = add_keyframe(indexed, test::blank_frame(4, 9), tracked, first, 3);
+  const KeyframeId id = add_keyframe(indexed, testkit::blank_frame(4, 9), tracked, first, 3);
   EXPECT_EQ(map[id].landmarks, (std::vector<LandmarkId>{{}, seen, {}, {}}));
   EXPECT_EQ(map[id].observed.frame, FrameId{9});
   EXPECT_EQ(map[id].world_from_camera.translation.x(), 2);
@@ -29,10 +30,10 @@ TEST(AddKeyframe, shows_the_landmarks_it_was_tracked_by) {
 }
 
 TEST(AddLandmarksByDepth, takes_features_with_depth_that_show_none) {
-  Map map(test::kRig, "ORB");
-  ObservedFrame observed = test::blank_frame(3);
+  Map map(testkit::kWorldRig, "ORB");
+  ObservedFrame observed = testkit::blank_frame(3);
   observed.points_in_camera[1] = observed.points_in_camera[2] = {0, 0, 2};
-  const KeyframeId id = map.add_keyframe(std::move(observed), test::aside(1), {}, 0);
+  const KeyframeId id = map.add_keyframe(std::move(observed), testkit::aside(1), {}, 0);
   const LandmarkId before = map.add_landmark({0, 0, 0}, {id, 1});
   EXPECT_EQ(add_landmarks_by_depth(map, id), 1);
   EXPECT_FALSE(map[id].landmarks[0].valid());
@@ -43,9 +44,9 @@ TEST(AddLandmarksByDepth, takes_features_with_depth_that_show_none) {
 /// Two keyframes that see nearly the same; the second knows every fifth of the first one's landmarks again
 /// and has made landmarks of its own of the rest.
 struct Twins {
-  explicit Twins(const Rigid3& second_placed = test::aside(0.1), std::size_t known_again = 5) {
+  explicit Twins(const Rigid3& second_placed = testkit::aside(0.1), std::size_t known_again = 5) {
     (void)maker.add({});
-    const KeyframeId second = maker.add(test::aside(0.1), second_placed);
+    const KeyframeId second = maker.add(testkit::aside(0.1), second_placed);
     std::size_t n = 0;
     for (std::size_t i = 0; i < maker.map[second].landmarks.size(); ++i) {
       const LandmarkId shared = maker.map[second].landmarks[i];
@@ -58,7 +59,7 @@ struct Twins {
     landmarks_before = maker.map.landmark_ids().size();
   }
 
-  test::MapMaker maker{test::points_ahead(400, 3)};
+  testkit::MapMaker maker{testkit::points_ahead(400, 3)};
   std::size_t seen_by_both = 0, landmarks_before = 0;
 };
 
@@ -95,7 +96,7 @@ TEST(JoinWithNeighbours, adds_sightings_where_a_feature_shows_nothing_yet) {
 }
 
 TEST(JoinWithNeighbours, leaves_apart_what_lies_apart) {
-  Twins twins(test::aside(0.3));
+  Twins twins(testkit::aside(0.3));
   EXPECT_EQ(join_with_neighbours(twins.maker.map, {1}, {}), 0);
   EXPECT_EQ(twins.maker.map.landmark_ids().size(), twins.landmarks_before);
 }
@@ -109,19 +110,19 @@ TEST(JoinWithNeighbours, leaves_apart_what_lies_behind) {
 }
 
 TEST(JoinWithNeighbours, keyframes_without_shared_landmarks_are_no_neighbours) {
-  Twins twins(test::aside(0.1), 1000);
+  Twins twins(testkit::aside(0.1), 1000);
   EXPECT_EQ(join_with_neighbours(twins.maker.map, {1}, {}), 0);
 }
 
 TEST(JoinRegions, joins_keyframes_that_share_nothing_yet) {
-  Twins twins(test::aside(0.1), 1000);
+  Twins twins(testkit::aside(0.1), 1000);
   EXPECT_GT(join_regions(twins.maker.map, {0}, {1}, {}), 100);
   EXPECT_EQ(shared_landmarks(twins.maker.map), twins.seen_by_both);
 }
 
 TEST(EraseUnconfirmed, erases_landmarks_that_were_not_seen_again) {
-  Map map(test::kRig, "ORB");
-  for (std::int32_t k = 0; k < 2; ++k) (void)map.add_keyframe(test::blank_frame(3), {}, {k - 1}, 0);
+  Map map(testkit::kWorldRig, "ORB");
+  for (std::int32_t k = 0; k < 2; ++k) (void)map.add_keyframe(testkit::blank_frame(3), {}, {k - 1}, 0);
   const KeyframeId first{0}, second{1};
   const LandmarkId lonely = map.add_landmark({0, 0, 0}, {first, 0}),
                    seen_again = map.add_landmark({0, 0, 0}, {first, 1});
@@ -133,9 +134,9 @@ TEST(EraseUnconfirmed, erases_landmarks_that_were_not_seen_again) {
 
 /// Five keyframes that all show the same 20 landmarks.
 IndexedMap five_alike() {
-  Map map(test::kRig, "ORB");
+  Map map(testkit::kWorldRig, "ORB");
   for (std::int32_t k = 0; k < 5; ++k) {
-    ObservedFrame observed = test::blank_frame(20);
+    ObservedFrame observed = testkit::blank_frame(20);
     for (Keypoint& keypoint : observed.features.keypoints) keypoint.sigma_px = k == 3 ? 1.0F : 1.44F;
     (void)map.add_keyframe(std::move(observed), {}, {k - 1}, 0);
     for (std::int32_t i = 0; i < 20; ++i)

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
 
 Map row_of(std::int32_t count) {
-  Map map(test::kRig, "ORB");
-  for (std::int32_t k = 0; k < count; ++k) (void)map.add_keyframe(test::blank_frame(0), {}, {k - 1}, 0);
+  Map map(testkit::kWorldRig, "ORB");
+  for (std::int32_t k = 0; k < count; ++k) (void)map.add_keyframe(testkit::blank_frame(0), {}, {k - 1}, 0);
   return map;
 }
 
@@ -50,17 +53,17 @@ TEST(CandidateKeyframes, depend_on_seed_and_stream_alone) {
 /// Thirty keyframes past a wall of points.
 struct PastAWall {
   PastAWall() {
-    for (std::int32_t k = 0; k < 30; ++k) (void)maker.add(test::aside(0.6 * k));
+    for (std::int32_t k = 0; k < 30; ++k) (void)maker.add(testkit::aside(0.6 * k));
   }
-  static test::World wall() {
-    test::World world;
+  static testkit::PointWorld wall() {
+    testkit::PointWorld world;
     Random random(6);
     for (int i = 0; i < 3000; ++i)
       world.add({random.uniform(-2, 20), random.uniform(-1, 1), random.uniform(2, 3)});
     world.noise_px = 0.3;
     return world;
   }
-  test::MapMaker maker{wall()};
+  testkit::MapMaker maker{wall()};
   SlamOptions options;
 };
 
@@ -68,8 +71,8 @@ TEST(Relocalize, finds_a_frame_anywhere_in_the_map) {
   PastAWall scene;
   scene.options.relocalization_keyframes = 1;  // so that the place has to be recognised
   for (const double x : {0.4, 8.1, 17.3}) {
-    const Rigid3 truth = test::aside(x) * Rigid3{rotation_exp({0.02, 0.1, 0.05}), {0, 0.1, 0.1}};
-    const test::View view = scene.maker.world.see(truth, 100);
+    const Rigid3 truth = testkit::aside(x) * Rigid3{rotation_exp({0.02, 0.1, 0.05}), {0, 0.1, 0.1}};
+    const testkit::View view = scene.maker.world.see(truth, 100);
     const auto found = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2));
     ASSERT_TRUE(found) << x;
     EXPECT_LT(motion_norm(found->tracked.world_from_camera.inverse() * truth), 6e-3) << x;
@@ -87,7 +90,7 @@ TEST(Relocalize, finds_a_frame_anywhere_in_the_map) {
 
 TEST(Relocalize, is_the_same_at_any_number_of_threads) {
   const PastAWall scene;
-  const test::View view = scene.maker.world.see(test::aside(3.3), 100);
+  const testkit::View view = scene.maker.world.see(testkit::aside(3.3), 100);
   const auto one = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(1));
   const auto many = relocalize(scene.maker.indexed, view.observed, scene.options, Executor(3));
   ASSERT_TRUE(one && many);
@@ -98,8 +101,8 @@ TEST(Relocalize, is_the_same_at_any_number_of_threads) {
 
 TEST(Relocalize, finds_nothing_in_a_strange_place) {
   PastAWall scene;
-  for (test::WorldPoint& point : scene.maker.world.points) point.look += 100000;
-  const test::View view = scene.maker.world.see(test::aside(3.3), 100);
+  for (testkit::WorldPoint& point : scene.maker.world.points) point.look += 100000;
+  const testkit::View view = scene.maker.world.see(testkit::aside(3.3), 100);
   EXPECT_FALSE(relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2)));
 }
 
@@ -110,7 +113,7 @@ TEST(Relocalize, is_not_taken_in_by_looks_alone) {
   Random random(8);
   for (std::size_t i = points.size(); i > 1; --i)
     std::swap(points[i - 1].look, points[random.index(static_cast<std::uint32_t>(i))].look);
-  const test::View view = scene.maker.world.see(test::aside(3.3), 100);
+  const testkit::View view = scene.maker.world.see(testkit::aside(3.3), 100);
   EXPECT_FALSE(relocalize(scene.maker.indexed, view.observed, scene.options, Executor(2)));
 }
 

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A camera that sees nothing for a while, then only a blur, then misses two seconds.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
 #include "cairn/image/codec.h"
-#include "cairn/slam/test_room.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/slam/small_room.h"
 
 namespace cairn {
 namespace {
+
+using testkit::error_m;
+using testkit::write_small_room;
 
 namespace fs = std::filesystem;
 
@@ -35,11 +41,7 @@ GrayImage blurred(const GrayImage& image, int radius) {
 
 class SlowSlamRecovery : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("cairn_recovery_test_" + std::to_string(::getpid()));
-    write_small_room(folder_, kFrames);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { write_small_room(folder_, kFrames); }
 
   [[nodiscard]] Sequence damaged() const {
     Sequence sequence = open_sequence(folder_);
@@ -57,7 +59,8 @@ class SlowSlamRecovery : public testing::Test {
     return sequence;
   }
 
-  fs::path folder_;
+  const testkit::TemporaryFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
   Progress progress_;
 };
 

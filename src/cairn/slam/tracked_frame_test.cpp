@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
@@ -21,8 +22,8 @@ struct Scene {
     }
   }
 
-  static test::World make_world(double noise_px) {
-    test::World world = test::points_ahead(500, 2);
+  static testkit::PointWorld make_world(double noise_px) {
+    testkit::PointWorld world = testkit::points_ahead(500, 2);
     world.noise_px = noise_px;
     return world;
   }
@@ -32,8 +33,8 @@ struct Scene {
   }
 
   Rigid3 truth{rotation_exp({0.01, 0.04, 0}), {0.15, 0.02, -0.1}};
-  test::MapMaker maker;
-  test::View seen;
+  testkit::MapMaker maker;
+  testkit::View seen;
   std::vector<FoundPoint> found;  // all of them right
 };
 
@@ -69,7 +70,7 @@ TEST(SolvePose, keeps_the_landmarks_of_those_that_agree) {
 TEST(SolvePose, leaves_the_frame_alone_where_too_few_agree) {
   const Scene scene;
   TrackedFrame tracked;
-  tracked.world_from_camera = test::aside(3);
+  tracked.world_from_camera = testkit::aside(3);
   tracked.inliers = 7;
   const std::span<const FoundPoint> few(scene.found.data(), kMinInliers - 1);
   EXPECT_FALSE(solve_pose(scene.view_from({}), few, kMinInliers, tracked));
@@ -94,9 +95,9 @@ TEST(RefineInMap, finds_the_rest_of_the_landmarks) {
 
 /// Two keyframes have each made its own landmarks of the same points.
 TEST(RefineInMap, a_feature_with_a_landmark_gets_no_second_one) {
-  test::MapMaker maker(test::points_ahead(500, 2), 0);
+  testkit::MapMaker maker(testkit::points_ahead(500, 2), 0);
   for (int k = 0; k < 2; ++k) (void)maker.add({});
-  const test::View seen = maker.world.see({}, 2);
+  const testkit::View seen = maker.world.see({}, 2);
   TrackedFrame tracked;
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const KeyframeId shown_by{static_cast<std::int32_t>(i % 2)};

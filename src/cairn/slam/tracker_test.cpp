@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
@@ -19,14 +21,14 @@ class TrackerTest : public testing::Test {
   }
 
   FrameTrack track(const Rigid3& truth) { return tracker_.track(maker_.world.see(truth, ++frame_).observed); }
-  FrameTrack track_nothing() { return tracker_.track(test::blank_frame(0, ++frame_)); }
+  FrameTrack track_nothing() { return tracker_.track(testkit::blank_frame(0, ++frame_)); }
 
   [[nodiscard]] double error(const FrameTrack& track, const Rigid3& truth) const {
     const Rigid3 pose = maker_.map.world_from_camera(*track.reference) * track.reference_from_frame;
     return motion_norm(pose.inverse() * truth);
   }
 
-  test::MapMaker maker_{test::points_ahead(600, 12)};
+  testkit::MapMaker maker_{testkit::points_ahead(600, 12)};
   SlamOptions options_;
   Executor executor_;
   Tracker tracker_{options_, executor_, maker_.indexed};
@@ -54,64 +56,64 @@ TEST_F(TrackerTest, finds_the_motion_without_a_prediction) {
 }
 
 TEST_F(TrackerTest, a_keyframe_is_due_when_the_view_has_changed) {
-  EXPECT_EQ(track(test::aside(0.02)).decision, KeyframeDecision::too_close);
-  EXPECT_EQ(track(test::aside(0.05)).decision, KeyframeDecision::too_close);
-  EXPECT_EQ(track(test::aside(0.25)).decision, KeyframeDecision::keyframe);
+  EXPECT_EQ(track(testkit::aside(0.02)).decision, KeyframeDecision::too_close);
+  EXPECT_EQ(track(testkit::aside(0.05)).decision, KeyframeDecision::too_close);
+  EXPECT_EQ(track(testkit::aside(0.25)).decision, KeyframeDecision::keyframe);
 }
 
 TEST_F(TrackerTest, a_keyframe_is_due_when_little_is_left_to_follow) {
   options_.weak_inliers = 100000;
-  EXPECT_EQ(track(test::aside(0.01)).decision, KeyframeDecision::too_close) << "nearly at rest";
-  EXPECT_EQ(track(test::aside(0.05)).decision, KeyframeDecision::keyframe);
+  EXPECT_EQ(track(testkit::aside(0.01)).decision, KeyframeDecision::too_close) << "nearly at rest";
+  EXPECT_EQ(track(testkit::aside(0.05)).decision, KeyframeDecision::keyframe);
 }
 
 TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
-  ASSERT_TRUE(track(test::aside(0.05)).tracked());
+  ASSERT_TRUE(track(testkit::aside(0.05)).tracked());
   const FrameTrack nothing = track_nothing();
   EXPECT_FALSE(nothing.tracked());
   EXPECT_EQ(nothing.decision, KeyframeDecision::not_matched);
   EXPECT_TRUE(tracker_.lost());
-  const Rigid3 truth = test::aside(0.4);
+  const Rigid3 truth = testkit::aside(0.4);
   const FrameTrack again = track(truth);
   ASSERT_TRUE(again.tracked());
   EXPECT_TRUE(again.relocalized);
   EXPECT_FALSE(tracker_.lost());
   EXPECT_LT(error(again, truth), 3e-3);
-  EXPECT_FALSE(track(test::aside(0.45)).relocalized);
+  EXPECT_FALSE(track(testkit::aside(0.45)).relocalized);
 }
 
 TEST_F(TrackerTest, a_motion_of_max_motion_or_more_is_refused_by_whatever_way_it_is_found) {
   options_.max_motion = 0.15;
-  ASSERT_TRUE(track(test::aside(0.1)).tracked());
-  const FrameTrack far = track(test::aside(0.3));  // by the last motion, by the map, and by relocalisation
+  ASSERT_TRUE(track(testkit::aside(0.1)).tracked());
+  const FrameTrack far = track(testkit::aside(0.3));  // by the last motion, by the map, and by relocalisation
   EXPECT_FALSE(far.tracked());
   EXPECT_EQ(far.decision, KeyframeDecision::too_far);
   EXPECT_GT(far.inliers, 100) << "that it was seen well is known";
   EXPECT_TRUE(tracker_.lost());
-  EXPECT_FALSE(track(test::aside(0.5)).tracked()) << "nor by being lost before";
-  EXPECT_TRUE(track(test::aside(0.2)).tracked()) << "back where it may be";
+  EXPECT_FALSE(track(testkit::aside(0.5)).tracked()) << "nor by being lost before";
+  EXPECT_TRUE(track(testkit::aside(0.2)).tracked()) << "back where it may be";
 }
 
 TEST_F(TrackerTest, a_refused_frame_counts_as_a_step) {
   options_.max_motion = 0.15;
   options_.frame_period_s = 0.033;
-  ASSERT_TRUE(track(test::aside(0.1)).tracked());
-  EXPECT_FALSE(track(test::aside(0.35)).tracked());
-  const FrameTrack again = track(test::aside(0.35));  // two steps of 0.125
+  ASSERT_TRUE(track(testkit::aside(0.1)).tracked());
+  EXPECT_FALSE(track(testkit::aside(0.35)).tracked());
+  const FrameTrack again = track(testkit::aside(0.35));  // two steps of 0.125
   EXPECT_TRUE(again.tracked());
   EXPECT_TRUE(again.relocalized);
-  for (int k = 1; k <= 5; ++k) EXPECT_EQ(track(test::aside(0.35 + 0.16 * k)).tracked(), false) << k;
+  for (int k = 1; k <= 5; ++k) EXPECT_EQ(track(testkit::aside(0.35 + 0.16 * k)).tracked(), false) << k;
 }
 
 TEST_F(TrackerTest, after_being_lost_max_loop_motion_holds_from_the_keyframe) {
   options_.max_loop_motion = 0.3;
   (void)track_nothing();
-  EXPECT_FALSE(track(test::aside(0.4)).tracked());
-  EXPECT_TRUE(track(test::aside(0.2)).tracked());
+  EXPECT_FALSE(track(testkit::aside(0.4)).tracked());
+  EXPECT_TRUE(track(testkit::aside(0.2)).tracked());
 }
 
 TEST_F(TrackerTest, moves_with_the_map) {
-  ASSERT_TRUE(track(test::aside(0.05)).tracked());
+  ASSERT_TRUE(track(testkit::aside(0.05)).tracked());
   const Rigid3 before = tracker_.last().world_from_camera;
   const Rigid3 moved{rotation_exp({0, 0.8, 0}), {1, 2, 3}};
   Map& map = maker_.map;
@@ -119,14 +121,14 @@ TEST_F(TrackerTest, moves_with_the_map) {
   for (const LandmarkId id : map.landmark_ids()) map.move(id, moved * map[id].point_in_world);
   tracker_.follow_map();
   EXPECT_LT(motion_norm(tracker_.last().world_from_camera.inverse() * moved * before), 1e-9);
-  const FrameTrack seen = track(test::aside(0.1));
+  const FrameTrack seen = track(testkit::aside(0.1));
   ASSERT_TRUE(seen.tracked());
   EXPECT_FALSE(seen.relocalized);
-  EXPECT_LT(error(seen, moved * test::aside(0.1)), 2e-3);
+  EXPECT_LT(error(seen, moved * testkit::aside(0.1)), 2e-3);
 }
 
 TEST_F(TrackerTest, refers_to_the_keyframe_that_the_last_frame_has_become) {
-  const Rigid3 truth = test::aside(0.4);
+  const Rigid3 truth = testkit::aside(0.4);
   (void)track(truth);
   const Rigid3 before = tracker_.last().world_from_camera;
   const KeyframeId second = maker_.add(truth, before);  // the frame that was tracked: number 1
@@ -137,13 +139,13 @@ TEST_F(TrackerTest, refers_to_the_keyframe_that_the_last_frame_has_become) {
 }
 
 TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
-  (void)track(test::aside(0.05));
+  (void)track(testkit::aside(0.05));
   Map& map = maker_.map;
   for (const LandmarkId id : map.landmark_ids())
     if (id.value % 2 == 0) map.erase(id);
-  const FrameTrack seen = track(test::aside(0.1));
+  const FrameTrack seen = track(testkit::aside(0.1));
   ASSERT_TRUE(seen.tracked());
-  EXPECT_LT(error(seen, test::aside(0.1)), 2e-3);
+  EXPECT_LT(error(seen, testkit::aside(0.1)), 2e-3);
   for (const LandmarkId id : tracker_.last().landmarks)
     if (id.valid()) {
       EXPECT_FALSE(map[id].erased());
@@ -153,9 +155,9 @@ TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
 TEST(Tracker, without_a_map_nothing_is_tracked) {
   const SlamOptions options;
   const Executor executor;
-  const IndexedMap map(Map(test::kRig, "ORB"));
+  const IndexedMap map(Map(testkit::kWorldRig, "ORB"));
   Tracker tracker(options, executor, map);
-  EXPECT_FALSE(tracker.track(test::points_ahead(300, 1).see({}, 0).observed).tracked());
+  EXPECT_FALSE(tracker.track(testkit::points_ahead(300, 1).see({}, 0).observed).tracked());
   EXPECT_TRUE(tracker.lost());
 }
 

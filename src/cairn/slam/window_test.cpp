@@ -6,19 +6,21 @@
 #include <algorithm>
 #include <set>
 
-#include "cairn/slam/test_map.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/slam/map_maker.h"
 
 namespace cairn {
 namespace {
 
 /// Eight keyframes in a row, half a metre apart, along a wall of points.
-test::MapMaker along_a_wall() {
-  test::World world;
+testkit::MapMaker along_a_wall() {
+  testkit::PointWorld world;
   Random random(4);
   for (int i = 0; i < 900; ++i)
     world.add({random.uniform(-2, 6), random.uniform(-1, 1), random.uniform(2, 2.5)});
-  test::MapMaker maker(world);
-  for (int k = 0; k < 8; ++k) (void)maker.add(test::aside(0.5 * k));
+  testkit::MapMaker maker(world);
+  for (int k = 0; k < 8; ++k) (void)maker.add(testkit::aside(0.5 * k));
   return maker;
 }
 
@@ -38,14 +40,14 @@ std::vector<KeyframeId> cameras_that_are(bool fixed, const Window& window) {
 }
 
 TEST(Window, the_keyframe_and_its_neighbours_are_free_and_the_next_ones_hold_them) {
-  const test::MapMaker maker = along_a_wall();
+  const testkit::MapMaker maker = along_a_wall();
   const Window window = window_around(maker.map, {7}, small_window());
   EXPECT_EQ(cameras_that_are(false, window), (std::vector<KeyframeId>{{5}, {6}, {7}}));
   EXPECT_EQ(cameras_that_are(true, window), (std::vector<KeyframeId>{{3}, {4}}));
 }
 
 TEST(Window, the_oldest_is_held_where_no_other_is) {
-  const test::MapMaker maker = along_a_wall();
+  const testkit::MapMaker maker = along_a_wall();
   MappingOptions options = small_window();
   options.window_keyframes = 100;
   const Window window = window_around(maker.map, {3}, options);
@@ -53,7 +55,7 @@ TEST(Window, the_oldest_is_held_where_no_other_is) {
 }
 
 TEST(Window, has_all_that_its_free_keyframes_show) {
-  const test::MapMaker maker = along_a_wall();
+  const testkit::MapMaker maker = along_a_wall();
   const Map& map = maker.map;
   const Window window = window_around(map, {7}, small_window());
   std::set<LandmarkId> shown;
@@ -69,7 +71,7 @@ TEST(Window, has_all_that_its_free_keyframes_show) {
 }
 
 TEST(Window, is_what_the_map_says) {
-  const test::MapMaker maker = along_a_wall();
+  const testkit::MapMaker maker = along_a_wall();
   const Window window = window_around(maker.map, {7}, small_window());
   EXPECT_FALSE(window.problem.observations.empty());
   for (const BundleObservation& observation : window.problem.observations) {
@@ -81,9 +83,9 @@ TEST(Window, is_what_the_map_says) {
 }
 
 TEST(Window, the_whole_of_a_part_leaves_other_parts_and_single_sightings_out) {
-  test::MapMaker maker = along_a_wall();
+  testkit::MapMaker maker = along_a_wall();
   Map& map = maker.map;
-  const KeyframeId other = map.add_keyframe(test::blank_frame(2), {}, {}, 1);
+  const KeyframeId other = map.add_keyframe(testkit::blank_frame(2), {}, {}, 1);
   (void)map.add_landmark({0, 0, 0}, {other, 0});
   const Window window = whole_part(map, 0);
   EXPECT_EQ(cameras_that_are(true, window), (std::vector<KeyframeId>{{0}}));
@@ -95,7 +97,7 @@ TEST(Window, the_whole_of_a_part_leaves_other_parts_and_single_sightings_out) {
 }
 
 TEST(TakeOver, moves_what_is_free_and_ends_sightings_that_do_not_agree) {
-  test::MapMaker maker = along_a_wall();
+  testkit::MapMaker maker = along_a_wall();
   Map& map = maker.map;
   Window window = window_around(map, {7}, small_window());
   BundleReport report;
@@ -118,15 +120,15 @@ TEST(TakeOver, moves_what_is_free_and_ends_sightings_that_do_not_agree) {
 
 /// The window's adjustment as a whole: keyframes and landmarks that were moved aside come back.
 TEST(TakeOver, an_adjusted_window_is_nearer_to_the_truth) {
-  test::MapMaker maker = along_a_wall();
+  testkit::MapMaker maker = along_a_wall();
   Map& map = maker.map;
   for (const std::int32_t k : {5, 6, 7})
-    map.move(KeyframeId{k}, Rigid3{rotation_exp({0, 0.01, 0}), {0.02, 0, 0}} * test::aside(0.5 * k));
+    map.move(KeyframeId{k}, Rigid3{rotation_exp({0, 0.01, 0}), {0.02, 0, 0}} * testkit::aside(0.5 * k));
   Window window = window_around(map, {7}, small_window());
   const BundleReport report = adjust_bundle(window.problem, {});
   take_over(window, report, map);
   for (const std::int32_t k : {5, 6, 7})
-    EXPECT_LT(motion_norm(map[KeyframeId{k}].world_from_camera.inverse() * test::aside(0.5 * k)), 1e-3);
+    EXPECT_LT(motion_norm(map[KeyframeId{k}].world_from_camera.inverse() * testkit::aside(0.5 * k)), 1e-3);
 }
 
 }  // namespace

@@ -6,11 +6,17 @@
 #include <array>
 #include <bit>
 
-#include "cairn/map/test_map.h"
-#include "cairn/survey/test_drive.h"
+#include "cairn/core/error.h"
+#include "cairn/core/file.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/survey/point_drive.h"
 
 namespace cairn {
 namespace {
+
+using testkit::contents_of;
+using testkit::TemporaryFolder;
 
 constexpr std::uint32_t kIdentity = 1234;
 
@@ -31,7 +37,8 @@ SurveyCounts all_different() {
 
 SurveyLandmark make_landmark(const FrameBuffer& frames, std::int32_t feature) {
   SurveyLandmark landmark =
-      fit_sightings(test::kDriveRig, frames, test::sightings_of(feature, 4, 8), SurveyOptions()).value();
+      fit_sightings(testkit::kDriveRig, frames, testkit::sightings_of(feature, 4, 8), SurveyOptions())
+          .value();
   landmark.pose_covariance = Eigen::Vector3d(0.1, 0.2, 0.3 + feature).asDiagonal();
   landmark.variance_factor = 1.75;
   return landmark;
@@ -40,7 +47,7 @@ SurveyLandmark make_landmark(const FrameBuffer& frames, std::int32_t feature) {
 /// As in the middle of a drive: frames 4 to 8 are still needed.
 SurveyState make_state() {
   SurveyState state;
-  state.frames = test::drive(test::points_ahead(6), 9, 0.4);
+  state.frames = testkit::drive(testkit::roadside_points(6), 9, 0.4);
   for (int i = 0; i < 4; ++i) state.frames.pop_front();
   for (std::int32_t i = 3; i < 5; ++i) state.pending.push_back(make_landmark(state.frames, i));
   state.next_in_sequence = 13;
@@ -54,9 +61,9 @@ SurveyState make_state() {
     frame.odometry.translation.x() += i;
     frame.world_from_camera.translation.y() += 0.01 * i;
     frame.camera_from_world = frame.world_from_camera.inverse();
-    if (i > 4) frame.motion = VisualMotion{test::drive_pose(i), 1e-6 * i, 1e-4 * i};
+    if (i > 4) frame.motion = VisualMotion{testkit::on_bend(i), 1e-6 * i, 1e-4 * i};
   }
-  for (std::int32_t i = 0; i < 3; ++i) state.tracks.push_back(test::track_of(state.frames, i, 5, 8 - i));
+  for (std::int32_t i = 0; i < 3; ++i) state.tracks.push_back(testkit::track_of(state.frames, i, 5, 8 - i));
   for (int i = 0; i < 120; ++i) state.variance.add(1.0 + i % 5, 6);
   state.counts = all_different();
   return state;
@@ -88,7 +95,7 @@ class CheckpointTest : public testing::Test {
   }
   [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "checkpoint.bin"; }
 
-  const TestFolder folder_;
+  const TemporaryFolder folder_;
   const SurveyState state_ = make_state();
 };
 

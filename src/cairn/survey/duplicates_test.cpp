@@ -6,23 +6,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cairn/survey/test_drive.h"
+#include "cairn/testing/survey/point_drive.h"
 
 namespace cairn {
 namespace {
 
-using test::kDriveRig;
+using testkit::kDriveRig;
 
 /// Features 0, 1 and 2 show one thing (a corner that was found thrice), feature 3 something that looks
 /// different at the same place, feature 4 something that looks the same two metres aside.
 class MergeDuplicates : public testing::Test {
  protected:
-  static std::vector<test::DrivePoint> points() {
+  static std::vector<testkit::DrivePoint> points() {
     const Eigen::Vector3d place(2, -0.5, 22);
     return {{place, 1}, {place, 1}, {place, 1}, {place, 8}, {place + Eigen::Vector3d(2, 0, 0), 1}};
   }
   [[nodiscard]] SurveyLandmark landmark(std::int32_t feature, int first, int last) const {
-    auto fitted = fit_sightings(kDriveRig, frames_, test::sightings_of(feature, first, last), options_);
+    auto fitted = fit_sightings(kDriveRig, frames_, testkit::sightings_of(feature, first, last), options_);
     EXPECT_TRUE(fitted.has_value());
     if (!fitted) return {};
     complete_covariance(frames_, prior_, true, *fitted);
@@ -32,7 +32,7 @@ class MergeDuplicates : public testing::Test {
     return merge_duplicates({kDriveRig, frames_, prior_, options_}, std::move(added), pending_);
   }
 
-  FrameBuffer frames_ = test::drive(points(), 14, 0.3);
+  FrameBuffer frames_ = testkit::drive(points(), 14, 0.3);
   VariancePrior prior_;
   SurveyOptions options_;
   std::vector<SurveyLandmark> pending_;
@@ -58,8 +58,8 @@ TEST_F(MergeDuplicates, in_a_common_frame_the_earlier_ones_sighting_stays) {
   merge({landmark(0, 0, 5)});
   EXPECT_EQ(merge({landmark(1, 4, 9)}), 1);
   ASSERT_EQ(pending_.size(), 1U);
-  std::vector<Sighting> both = test::sightings_of(0, 0, 5);
-  for (const Sighting& sighting : test::sightings_of(1, 6, 9)) both.push_back(sighting);
+  std::vector<Sighting> both = testkit::sightings_of(0, 0, 5);
+  for (const Sighting& sighting : testkit::sightings_of(1, 6, 9)) both.push_back(sighting);
   EXPECT_EQ(pending_[0].sightings, both);
 }
 
@@ -84,7 +84,7 @@ TEST_F(MergeDuplicates, uncertain_ones_that_one_point_does_not_fit_stay_two) {
 TEST_F(MergeDuplicates, the_errors_of_poses_do_not_make_one_of_two) {
   // They move both alike.
   SurveyLandmark here = landmark(0, 0, 5), there = landmark(4, 0, 5);
-  there.sightings = test::sightings_of(0, 6, 11);
+  there.sightings = testkit::sightings_of(0, 6, 11);
   here.pose_covariance = there.pose_covariance = 4 * Eigen::Matrix3d::Identity();
   EXPECT_EQ(merge({here, there}), 0);
 }

@@ -7,16 +7,18 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "cairn/survey/test_drive.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/survey/point_drive.h"
 
 namespace cairn {
 namespace {
 
-using test::kDriveRig;
+using testkit::kDriveRig;
 
 TEST(AdjustTracks, says_what_became_of_each) {
-  const auto points = test::points_ahead(6);
-  FrameBuffer frames = test::drive(points, 8, 0.2);
+  const auto points = testkit::roadside_points(6);
+  FrameBuffer frames = testkit::drive(points, 8, 0.2);
   frames[KeyframeId{3}].observed.observations[2].u += 40;  // one sighting of a good track
   for (int i = 0; i < 8; ++i) {                            // a track that jumps to and fro
     Observation& seen = frames[KeyframeId{i}].observed.observations[4];
@@ -24,7 +26,7 @@ TEST(AdjustTracks, says_what_became_of_each) {
     seen.v += 20.0 * (i % 3) * i;
   }
   std::vector<Track> tracks;
-  for (std::int32_t i = 0; i < 6; ++i) tracks.push_back(test::track_of(frames, i, 0, i == 1 ? 1 : 7));
+  for (std::int32_t i = 0; i < 6; ++i) tracks.push_back(testkit::track_of(frames, i, 0, i == 1 ? 1 : 7));
   const AdjustedTracks adjusted = adjust_tracks(kDriveRig, frames, tracks, {}, Executor());
   EXPECT_EQ(adjusted.too_short, 1);
   EXPECT_EQ(adjusted.contradictory, 1);
@@ -43,9 +45,9 @@ TEST(AdjustTracks, says_what_became_of_each) {
 }
 
 TEST(AdjustTracks, is_the_same_at_any_number_of_threads) {
-  const FrameBuffer frames = test::drive(test::points_ahead(300), 14, 0.5);
+  const FrameBuffer frames = testkit::drive(testkit::roadside_points(300), 14, 0.5);
   std::vector<Track> tracks;
-  for (std::int32_t i = 0; i < 300; ++i) tracks.push_back(test::track_of(frames, i, i % 5, 6 + i % 8));
+  for (std::int32_t i = 0; i < 300; ++i) tracks.push_back(testkit::track_of(frames, i, i % 5, 6 + i % 8));
   const auto adjust = [&](int threads) {
     return adjust_tracks(kDriveRig, frames, tracks, {}, Executor(threads)).landmarks;
   };
@@ -63,14 +65,14 @@ TEST(AdjustTracks, is_the_same_at_any_number_of_threads) {
 }
 
 TEST(FitSightings, is_what_adjust_tracks_makes_of_them) {
-  const FrameBuffer frames = test::drive(test::points_ahead(1), 9, 0.5);
-  const std::vector<Track> tracks{test::track_of(frames, 0, 1, 8)};
+  const FrameBuffer frames = testkit::drive(testkit::roadside_points(1), 9, 0.5);
+  const std::vector<Track> tracks{testkit::track_of(frames, 0, 1, 8)};
   const AdjustedTracks adjusted = adjust_tracks(kDriveRig, frames, tracks, {}, Executor());
   const auto fitted = fit_sightings(kDriveRig, frames, tracks[0].sightings, {});
   ASSERT_TRUE(fitted.has_value());
   ASSERT_EQ(adjusted.landmarks.size(), 1U);
   EXPECT_EQ(fitted->point_in_world, adjusted.landmarks[0].point_in_world);
-  EXPECT_FALSE(fit_sightings(kDriveRig, frames, test::sightings_of(0, 0, 1), {}).has_value());
+  EXPECT_FALSE(fit_sightings(kDriveRig, frames, testkit::sightings_of(0, 0, 1), {}).has_value());
 }
 
 /// Positive definite, none of its entries zero: of (c, w), metres and radians.
@@ -90,7 +92,7 @@ PoseUncertainty uncertainty_of(const Matrix6d& joint) {
 class PoseErrors : public testing::Test {
  protected:
   PoseErrors() {
-    landmark_.sightings = test::sightings_of(0, 0, 5);
+    landmark_.sightings = testkit::sightings_of(0, 0, 5);
     landmark_.point_in_world = points_[0].position;
     landmark_.redundancy = 15;
     landmark_.squared_error_sum = 20;
@@ -100,8 +102,8 @@ class PoseErrors : public testing::Test {
       frames_[KeyframeId{i}].given.uncertainty = uncertainty_of(joint_covariance());
   }
 
-  std::vector<test::DrivePoint> points_ = test::points_ahead(1);
-  FrameBuffer frames_ = test::drive(points_, 6);
+  std::vector<testkit::DrivePoint> points_ = testkit::roadside_points(1);
+  FrameBuffer frames_ = testkit::drive(points_, 6);
   SurveyLandmark landmark_;
 };
 

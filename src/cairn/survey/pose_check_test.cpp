@@ -4,20 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/core/executor.h"
+#include "cairn/core/progress.h"
 #include "cairn/core/random.h"
-#include "cairn/map/test_map.h"
-#include "cairn/sequence/simulate_street.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/geometry/random_points.h"
+#include "cairn/testing/survey/street_survey.h"
 
 namespace cairn {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr int kFrames = 24;
 
@@ -25,19 +27,12 @@ constexpr int kFrames = 24;
 class CheckPoses : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    street_ = fs::temp_directory_path() / ("cairn_pose_check_test_" + std::to_string(::getpid()));
-    fs::create_directories(street_);
-    SimulateStreetOptions options;
-    options.frames_count = kFrames;
-    options.camera = {CameraModel::pinhole, 414, 125, 240, 240, 203, 57, {}};
-    options.seed = 5;
-    const Executor executor(2);
-    Progress silent;
-    (void)write_kitti(SimulatedStreet(options, executor), street_, false, executor, silent);
+    street_ = std::make_unique<const testkit::TemporaryFolder>();
+    testkit::write_small_street(street_->path(), kFrames);
   }
-  static void TearDownTestSuite() { fs::remove_all(street_); }
+  static void TearDownTestSuite() { street_.reset(); }
 
-  CheckPoses() : sequence_(open_sequence(street_)), poses_(read_given_poses(sequence_)) {
+  CheckPoses() : sequence_(open_sequence(street_->path())), poses_(read_given_poses(sequence_)) {
     poses_.format = "TUM";
     poses_.source = "poses.txt";
     sequence_.format = "TUM";
@@ -48,10 +43,10 @@ class CheckPoses : public testing::Test {
   }
   void add_noise(double metres, double degrees) {
     Random random(11);
-    const auto normal = [&] { return Eigen::Vector3d(random.normal(), random.normal(), random.normal()); };
     change([&](const Rigid3& pose) {
-      return Rigid3{pose.rotation * rotation_exp(degrees * std::numbers::pi / 180 * normal()),
-                    pose.translation + metres * normal()};
+      return Rigid3{
+          pose.rotation * rotation_exp(testkit::normal_vector(random, degrees * std::numbers::pi / 180)),
+          pose.translation + testkit::normal_vector(random, metres)};
     });
   }
   [[nodiscard]] PoseCheck check(int threads = 2) const {
@@ -65,12 +60,10 @@ class CheckPoses : public testing::Test {
     EXPECT_GT(found.error_px, 4 * found.reading_error_px);
   }
 
-  static fs::path street_;
+  static inline std::unique_ptr<const testkit::TemporaryFolder> street_;
   Sequence sequence_;
   GivenPoses poses_;
 };
-
-fs::path CheckPoses::street_;
 
 TEST_F(CheckPoses, right_ones_agree) {
   const PoseCheck found = check();

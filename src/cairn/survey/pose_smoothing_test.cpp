@@ -6,12 +6,14 @@
 #include <cmath>
 #include <vector>
 
-#include "cairn/survey/test_drive.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/survey/point_drive.h"
 
 namespace cairn {
 namespace {
 
-using test::kDriveRig;
+using testkit::kDriveRig;
 
 constexpr int kFrames = 61, kReach = 10;
 
@@ -33,10 +35,10 @@ FrameBuffer noisy_drive(const DriveNoise& noise, std::uint64_t seed = 3) {
   Random random(seed);
   FrameBuffer frames;
   for (int i = 0; i < kFrames; ++i) {
-    const WorldFromCamera given(perturbed(test::drive_pose(i), noise.given_rad, noise.given_m, random));
-    frames.push_back(test::see({}, i, given));
+    const WorldFromCamera given(perturbed(testkit::on_bend(i), noise.given_rad, noise.given_m, random));
+    frames.push_back(testkit::see({}, i, given));
     if (i == 0) continue;
-    const Rigid3 step = test::drive_pose(i - 1).inverse() * Rigid3(test::drive_pose(i));
+    const Rigid3 step = testkit::on_bend(i - 1).inverse() * Rigid3(testkit::on_bend(i));
     frames[KeyframeId{i}].motion =
         VisualMotion{perturbed(step, noise.motion_rad, noise.motion_m, random),
                      noise.motion_rad * noise.motion_rad, noise.motion_m * noise.motion_m};
@@ -65,7 +67,7 @@ Errors errors_of(const FrameBuffer& frames) {
   Errors sums;
   int count = 0;
   for (int i = kReach; i < kFrames - kReach; ++i, ++count) {
-    const WorldFromCamera truth = test::drive_pose(i), smoothed = smoothed_pose(frames, {i}, kReach);
+    const WorldFromCamera truth = testkit::on_bend(i), smoothed = smoothed_pose(frames, {i}, kReach);
     sums.given_m += std::pow(distance(given_pose(frames, i), truth), 2);
     sums.given_rad += std::pow(angle_between(given_pose(frames, i), truth), 2);
     sums.smoothed_m += std::pow(distance(smoothed, truth), 2);
@@ -152,7 +154,7 @@ double relative_error_m(const std::vector<Rigid3>& world_from_camera) {
   double sum = 0;
   for (int i = 20; i <= 40; ++i) {
     const Rigid3 found = world_from_camera[30].inverse() * world_from_camera[static_cast<std::size_t>(i)];
-    const Rigid3 truth = test::drive_pose(30).inverse() * Rigid3(test::drive_pose(i));
+    const Rigid3 truth = testkit::on_bend(30).inverse() * Rigid3(testkit::on_bend(i));
     sum += std::pow(distance(found, truth), 2);
   }
   return std::sqrt(sum / 20);
@@ -183,7 +185,7 @@ TEST(CamerasAround, follow_the_motions_where_poses_jitter) {
 TEST(CamerasAround, are_the_given_ones_where_these_are_exact) {
   const FrameBuffer frames = noisy_drive({.motion_m = 0.02, .motion_rad = 0.001});
   std::vector<Rigid3> led(kFrames);  // by the motions alone
-  led[30] = test::drive_pose(30);
+  led[30] = testkit::on_bend(30);
   for (std::size_t i = 31; i < kFrames; ++i)
     led[i] = led[i - 1] * frames[KeyframeId{static_cast<std::int32_t>(i)}].motion->previous_from_this;
   for (std::size_t i = 30; i-- > 0;)
@@ -213,13 +215,13 @@ TEST(CamerasAround, are_those_of_a_buffer_that_begins_later) {
 class MeasureMotion : public testing::Test {
  protected:
   void make(std::size_t points, double noise_px) {
-    const auto world = test::points_ahead(points);
-    frames_ = test::drive(world, 1, noise_px);
-    next_ = test::see(world, 1, test::drive_pose(1), noise_px);
+    const auto world = testkit::roadside_points(points);
+    frames_ = testkit::drive(world, 1, noise_px);
+    next_ = testkit::see(world, 1, testkit::on_bend(1), noise_px);
     const Rigid3 wrong{rotation_exp({0, 0.003, 0}), {0.03, 0, 0.04}};
     next_.odometry = WorldFromCamera(next_.odometry * wrong);
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(points); ++i) {
-      tracks_.push_back(test::track_of(frames_, i, 0, 0));
+      tracks_.push_back(testkit::track_of(frames_, i, 0, 0));
       tracks_.back().point_in_world = world[static_cast<std::size_t>(i)].position;
       matches_.push_back({i, i});
     }
@@ -235,7 +237,7 @@ class MeasureMotion : public testing::Test {
       next_.observed.observations[i].v += random.uniform(-40, 40);
     }
   }
-  static Rigid3 truth() { return test::drive_pose(0).inverse() * Rigid3(test::drive_pose(1)); }
+  static Rigid3 truth() { return testkit::on_bend(0).inverse() * Rigid3(testkit::on_bend(1)); }
 
   FrameBuffer frames_;
   std::vector<Track> tracks_;

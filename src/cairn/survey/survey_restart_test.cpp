@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs that were stopped, or failed, and what the next one goes on from.
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
 
 #include "cairn/image/codec.h"
-#include "cairn/survey/test_street.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/survey/street_survey.h"
 
 namespace cairn {
 namespace {
 
+namespace fs = std::filesystem;
+
+using SurveyTest = testkit::StreetSurvey;
+using testkit::contents_of;
+using testkit::kStreetFrames;
+using testkit::Watcher;
+
 TEST_F(SurveyTest, goes_on_where_it_was_stopped) {
   const SurveyResult whole = survey("whole");
   const auto expected = contents_of(folder("whole"));
-  for (const int updates : {1, 7, 15, kFrames - 1}) {
+  for (const int updates : {1, 7, 15, kStreetFrames - 1}) {
     const std::string name = "stopped_" + std::to_string(updates);
     Watcher stop(updates);
     const SurveyResult stopped = survey(name, 2, &stop);

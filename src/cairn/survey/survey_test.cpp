@@ -8,14 +8,25 @@
 #include <numeric>
 
 #include "cairn/core/checksum.h"
+#include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
 #include "cairn/image/codec.h"
+#include "cairn/map/map.h"
+#include "cairn/map/map_file.h"
 #include "cairn/map/uvlist.h"
-#include "cairn/survey/test_street.h"
+#include "cairn/sequence/sequence.h"
+#include "cairn/sequence/simulate_street.h"
+#include "cairn/testing/core/temporary_folder.h"
+#include "cairn/testing/survey/street_survey.h"
 
 namespace cairn {
 namespace {
+
+using SurveyTest = testkit::StreetSurvey;
+using testkit::contents_of;
+using testkit::kStreetFrames;
+using testkit::Watcher;
 
 /// The depth nearest to `depth` within a pixel of where a point is seen; 0 where only the sky is.
 double surface_near(const DepthImage& truth, const Eigen::Vector3d& pixel, double depth) {
@@ -34,15 +45,15 @@ double surface_near(const DepthImage& truth, const Eigen::Vector3d& pixel, doubl
 TEST_F(SurveyTest, landmarks_lie_on_what_was_seen) {
   const SurveyResult result = survey("map");
   EXPECT_FALSE(result.stopped);
-  EXPECT_EQ(result.counts.frames, kFrames);
+  EXPECT_EQ(result.counts.frames, kStreetFrames);
   const Map map = read_map(folder("map"));
   const auto covariances = read_covariances(folder("map"));
   ASSERT_EQ(std::ssize(map.landmarks()), result.counts.landmarks);
-  EXPECT_EQ(std::ssize(map.keyframes()), kFrames);
+  EXPECT_EQ(std::ssize(map.keyframes()), kStreetFrames);
   EXPECT_GT(map.landmarks().size(), 300U);
-  const SimulatedStreet street(street_options());
+  const SimulatedStreet street(testkit::small_street(kStreetFrames));
   std::vector<DepthImage> truth;
-  for (int i = 0; i < kFrames; ++i) truth.push_back(street.render(i).depth_true);
+  for (int i = 0; i < kStreetFrames; ++i) truth.push_back(street.render(i).depth_true);
   std::size_t on_surface = 0;
   for (const Landmark& landmark : map.landmarks()) {
     const auto frame = landmark.sightings.front().keyframe.index();
@@ -76,7 +87,7 @@ TEST_F(SurveyTest, the_map_holds_together) {
             counts.too_short + counts.contradictory + cleaned + counts.merged + counts.landmarks);
   EXPECT_GE(counts.features, counts.measured);
   EXPECT_GT(counts.matched, counts.sightings / 2);
-  for (int i = 0; i < kFrames; ++i) {  // exact poses: smoothing hardly moves them
+  for (int i = 0; i < kStreetFrames; ++i) {  // exact poses: smoothing hardly moves them
     const Rigid3& given = poses_.frames[static_cast<std::size_t>(i)]->world_from_camera;
     EXPECT_LT((map.world_from_camera(KeyframeId{i}).translation - given.translation).norm(), 0.03);
   }
@@ -86,7 +97,7 @@ TEST_F(SurveyTest, the_map_holds_together) {
 TEST_F(SurveyTest, is_the_same_at_any_number_of_threads) {
   (void)survey("one", 1);
   const auto one = contents_of(folder("one"));
-  EXPECT_GT(std::ssize(one), kFrames);
+  EXPECT_GT(std::ssize(one), kStreetFrames);
   for (const int threads : {2, 3}) {
     const std::string name = std::to_string(threads);
     (void)survey(name, threads);
@@ -162,12 +173,12 @@ TEST_F(SurveyTest, misread_poses_are_refused) {
 
 TEST_F(SurveyTest, frames_without_a_pose_are_left_out) {
   forget_pose(4);
-  forget_pose(kFrames - 1);
+  forget_pose(kStreetFrames - 1);
   const SurveyResult result = survey("map");
   EXPECT_EQ(result.counts.without_pose, 2);
-  EXPECT_EQ(result.counts.frames, kFrames - 2);
+  EXPECT_EQ(result.counts.frames, kStreetFrames - 2);
   const Map map = read_map(folder("map"));
-  ASSERT_EQ(std::ssize(map.keyframes()), kFrames - 2);
+  ASSERT_EQ(std::ssize(map.keyframes()), kStreetFrames - 2);
   EXPECT_EQ(map.keyframes()[3].observed.frame, FrameId{3});
   EXPECT_EQ(map.keyframes()[4].observed.frame, FrameId{5});
 }
@@ -177,7 +188,7 @@ TEST_F(SurveyTest, a_camera_that_stands_adds_nothing) {
   stand_at(10);
   const SurveyResult result = survey("map");
   EXPECT_EQ(result.counts.standing, 2);
-  EXPECT_EQ(result.counts.frames, kFrames);
+  EXPECT_EQ(result.counts.frames, kStreetFrames);
   const Map map = read_map(folder("map"));
   EXPECT_EQ(map.keyframes()[10].observed.frame, FrameId{10});
   EXPECT_EQ(map.keyframes()[11].observed.frame, FrameId{13});
@@ -188,7 +199,7 @@ TEST_F(SurveyTest, an_unreadable_frame_is_reported_and_left_out) {
   Watcher watcher;
   const SurveyResult result = survey("map", 2, &watcher);
   EXPECT_EQ(result.counts.unreadable, 1);
-  EXPECT_EQ(result.counts.frames, kFrames - 1);
+  EXPECT_EQ(result.counts.frames, kStreetFrames - 1);
   ASSERT_EQ(watcher.warnings.size(), 1U);
   EXPECT_NE(watcher.warnings[0].find("damaged.png"), std::string::npos) << watcher.warnings[0];
   EXPECT_GT(result.counts.landmarks, 250);
@@ -231,7 +242,7 @@ TEST_F(SurveyTest, images_without_texture_make_a_map_without_landmarks) {
   const SurveyResult result = survey("map");
   EXPECT_EQ(result.counts.landmarks, 0);
   EXPECT_EQ(result.counts.features, 0);
-  EXPECT_EQ(std::ssize(read_map(folder("map")).keyframes()), kFrames);
+  EXPECT_EQ(std::ssize(read_map(folder("map")).keyframes()), kStreetFrames);
 }
 
 TEST_F(SurveyTest, wrong_poses_make_no_landmarks) {

@@ -7,12 +7,15 @@
 #include <cmath>
 #include <set>
 
-#include "cairn/survey/test_drive.h"
+#include "cairn/core/executor.h"
+#include "cairn/testing/features/random_descriptor.h"
+#include "cairn/testing/geometry/camera_paths.h"
+#include "cairn/testing/survey/point_drive.h"
 
 namespace cairn {
 namespace {
 
-using test::kDriveRig;
+using testkit::kDriveRig;
 
 constexpr std::size_t kPoints = 60;
 
@@ -21,7 +24,7 @@ class MatchToTracks : public testing::Test {
  protected:
   MatchToTracks() {
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(kPoints); ++i)
-      tracks_.push_back(test::track_of(frames_, i, 0, 1));
+      tracks_.push_back(testkit::track_of(frames_, i, 0, 1));
   }
   [[nodiscard]] std::vector<TrackMatch> match(int threads = 1) const {
     return match_to_tracks(kDriveRig, frames_, tracks_, next_, options_, Executor(threads));
@@ -44,10 +47,10 @@ class MatchToTracks : public testing::Test {
     return Eigen::Vector2d(seen(feature).u - epipole.x(), seen(feature).v - epipole.y()).normalized();
   }
 
-  std::vector<test::DrivePoint> points_ = test::points_ahead(kPoints);
-  FrameBuffer frames_ = test::drive(points_, 2);
+  std::vector<testkit::DrivePoint> points_ = testkit::roadside_points(kPoints);
+  FrameBuffer frames_ = testkit::drive(points_, 2);
   std::vector<Track> tracks_;
-  SurveyFrame next_ = test::see(points_, 2, test::drive_pose(2));
+  SurveyFrame next_ = testkit::see(points_, 2, testkit::on_bend(2));
   TrackOptions options_;
 };
 
@@ -61,13 +64,13 @@ TEST_F(MatchToTracks, finds_each_where_it_should_be) {
 }
 
 TEST_F(MatchToTracks, refuses_what_looks_different) {
-  test::describe(1000, 5, next_.observed.features.descriptors);
+  testkit::put_look(testkit::kDriveLooks, 1000, 5, next_.observed.features.descriptors);
   EXPECT_FALSE(is_matched(5));
   EXPECT_EQ(match().size(), kPoints - 1);
 }
 
 TEST_F(MatchToTracks, refuses_what_is_elsewhere) {
-  test::forget_disparity(5, next_);
+  testkit::forget_disparity(5, next_);
   move(5, 40 * along_line(5));
   EXPECT_FALSE(is_matched(5));
   options_.search_px = 60;
@@ -99,19 +102,19 @@ TEST_F(MatchToTracks, refuses_another_depth) {
 }
 
 TEST_F(MatchToTracks, takes_a_feature_without_a_disparity) {
-  test::forget_disparity(9, next_);
+  testkit::forget_disparity(9, next_);
   EXPECT_TRUE(is_matched(9));
 }
 
 TEST_F(MatchToTracks, refuses_what_is_behind_the_camera) {
-  next_ = test::see(points_, 2, WorldFromCamera(Rigid3{Eigen::Quaterniond::Identity(), {0, 0, 60}}));
-  for (std::size_t i = 0; i < kPoints; ++i) test::forget_disparity(i, next_);
+  next_ = testkit::see(points_, 2, WorldFromCamera(Rigid3{Eigen::Quaterniond::Identity(), {0, 0, 60}}));
+  for (std::size_t i = 0; i < kPoints; ++i) testkit::forget_disparity(i, next_);
   EXPECT_TRUE(match().empty());
 }
 
 TEST_F(MatchToTracks, a_full_track_takes_no_more) {
   options_.max_frames = 3;
-  tracks_[4] = test::track_of(frames_, 4, 1, 1);
+  tracks_[4] = testkit::track_of(frames_, 4, 1, 1);
   EXPECT_EQ(match().size(), 1U);
   EXPECT_TRUE(is_matched(4));
   options_.max_frames = 4;
@@ -127,7 +130,7 @@ TEST_F(MatchToTracks, of_two_tracks_one_gets_the_feature) {
 }
 
 TEST_F(MatchToTracks, of_two_like_features_none_is_believed) {
-  test::describe(3, 4, next_.observed.features.descriptors);
+  testkit::put_look(testkit::kDriveLooks, 3, 4, next_.observed.features.descriptors);
   move(4, Eigen::Vector2d(seen(3).u + 1 - seen(4).u, seen(3).v - seen(4).v));
   keypoint(4).size = keypoint(3).size;
   EXPECT_FALSE(is_matched(3));
@@ -144,11 +147,11 @@ TEST_F(MatchToTracks, goes_by_the_odometry) {
 }
 
 TEST_F(MatchToTracks, is_the_same_at_any_number_of_threads) {
-  const auto points = test::points_ahead(700, 2);
-  frames_ = test::drive(points, 2, 0.5);
-  next_ = test::see(points, 2, test::drive_pose(2), 0.5);
+  const auto points = testkit::roadside_points(700, 2);
+  frames_ = testkit::drive(points, 2, 0.5);
+  next_ = testkit::see(points, 2, testkit::on_bend(2), 0.5);
   tracks_.clear();
-  for (std::int32_t i = 0; i < 700; ++i) tracks_.push_back(test::track_of(frames_, i, 0, 1));
+  for (std::int32_t i = 0; i < 700; ++i) tracks_.push_back(testkit::track_of(frames_, i, 0, 1));
   const auto one = match(1);
   EXPECT_GT(one.size(), 500U);
   for (const int threads : {2, 3}) {
@@ -162,9 +165,9 @@ TEST_F(MatchToTracks, is_the_same_at_any_number_of_threads) {
 }
 
 TEST(KeepUseful, keeps_what_has_a_disparity_or_a_match) {
-  const auto points = test::points_ahead(6);
-  SurveyFrame frame = test::see(points, 0, test::drive_pose(0));
-  for (const std::size_t feature : {0U, 2U, 3U, 5U}) test::forget_disparity(feature, frame);
+  const auto points = testkit::roadside_points(6);
+  SurveyFrame frame = testkit::see(points, 0, testkit::on_bend(0));
+  for (const std::size_t feature : {0U, 2U, 3U, 5U}) testkit::forget_disparity(feature, frame);
   const ObservedFrame all = frame.observed;
   std::vector<TrackMatch> matches{{10, 3}, {11, 4}};
   keep_useful(frame, matches);
@@ -187,28 +190,28 @@ TEST(KeepUseful, keeps_what_has_a_disparity_or_a_match) {
 }
 
 TEST(ExtendTracks, features_join_or_begin) {
-  const auto points = test::points_ahead(4);
-  SurveyFrame first = test::see(points, 0, test::drive_pose(0));
-  test::forget_disparity(3, first);
+  const auto points = testkit::roadside_points(4);
+  SurveyFrame first = testkit::see(points, 0, testkit::on_bend(0));
+  testkit::forget_disparity(3, first);
   std::vector<Track> tracks;
   extend_tracks(first, {}, tracks);
   ASSERT_EQ(tracks.size(), 3U);  // the one without a disparity begins none
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((tracks[i].point_in_world - points[i].position).norm(), 1e-9);
 
-  SurveyFrame second = test::see(points, 1, test::drive_pose(1));
+  SurveyFrame second = testkit::see(points, 1, testkit::on_bend(1));
   second.odometry.translation.x() += 1;  // where tracks are placed
-  test::forget_disparity(0, second);
+  testkit::forget_disparity(0, second);
   const std::vector<TrackMatch> matches{{0, 0}, {2, 2}};
   extend_tracks(second, matches, tracks);
   ASSERT_EQ(tracks.size(), 5U);
-  EXPECT_EQ(tracks[0].sightings, test::sightings_of(0, 0, 1));  // joins without one, too,
-  EXPECT_EQ(tracks[0].measured, (Sighting{{0}, 0}));            // and stays where it was measured
+  EXPECT_EQ(tracks[0].sightings, testkit::sightings_of(0, 0, 1));  // joins without one, too,
+  EXPECT_EQ(tracks[0].measured, (Sighting{{0}, 0}));               // and stays where it was measured
   EXPECT_LT((tracks[0].point_in_world - points[0].position).norm(), 1e-9);
-  EXPECT_EQ(tracks[1].sightings, test::sightings_of(1, 0, 0));
+  EXPECT_EQ(tracks[1].sightings, testkit::sightings_of(1, 0, 0));
   EXPECT_EQ(tracks[2].measured, (Sighting{{1}, 2}));
   EXPECT_NEAR((tracks[2].point_in_world - points[2].position).norm(), 1, 1e-9);
-  EXPECT_EQ(tracks[3].sightings, test::sightings_of(1, 1, 1));
-  EXPECT_EQ(tracks[4].sightings, test::sightings_of(3, 1, 1));
+  EXPECT_EQ(tracks[3].sightings, testkit::sightings_of(1, 1, 1));
+  EXPECT_EQ(tracks[4].sightings, testkit::sightings_of(3, 1, 1));
 }
 
 /// Numbers of the features whose tracks are finished at `newest`; those that stay remain in `tracks`.
@@ -223,9 +226,9 @@ TEST(TakeFinished, tracks_that_left_the_window) {
   TrackOptions options;
   options.window = 5;
   options.smooth_frames = 2;
-  const FrameBuffer frames = test::drive(test::points_ahead(4), 8);
-  std::vector<Track> tracks{test::track_of(frames, 0, 0, 3), test::track_of(frames, 1, 0, 2),
-                            test::track_of(frames, 2, 0, 7), test::track_of(frames, 3, 2, 2)};
+  const FrameBuffer frames = testkit::drive(testkit::roadside_points(4), 8);
+  std::vector<Track> tracks{testkit::track_of(frames, 0, 0, 3), testkit::track_of(frames, 1, 0, 2),
+                            testkit::track_of(frames, 2, 0, 7), testkit::track_of(frames, 3, 2, 2)};
   tracks[3].sightings.push_back({{6}, 3});  // without a disparity there: its place is too old
   EXPECT_TRUE(finished_at(6, options, tracks).empty());
   EXPECT_EQ(finished_at(7, options, tracks), (std::vector<std::int32_t>{1, 3}));
@@ -241,8 +244,8 @@ TEST(TakeFinished, full_tracks_once_their_poses_are_smooth) {
   options.window = 8;
   options.smooth_frames = 3;
   options.max_frames = 5;
-  const FrameBuffer frames = test::drive(test::points_ahead(2), 8);
-  std::vector<Track> tracks{test::track_of(frames, 0, 0, 3), test::track_of(frames, 1, 2, 3)};
+  const FrameBuffer frames = testkit::drive(testkit::roadside_points(2), 8);
+  std::vector<Track> tracks{testkit::track_of(frames, 0, 0, 3), testkit::track_of(frames, 1, 2, 3)};
   EXPECT_TRUE(finished_at(5, options, tracks).empty());  // full, but frame 3 has two frames after it
   EXPECT_EQ(finished_at(6, options, tracks), (std::vector<std::int32_t>{0, 1}));
 }

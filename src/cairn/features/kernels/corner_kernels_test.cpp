@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/kernels/corner_kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "cairn/features/kernels/test_kernels.h"
+#include "cairn/core/random.h"
+#include "cairn/testing/features/each_instruction_set.h"
+#include "cairn/testing/image/random_images.h"
 
 namespace cairn {
 namespace {
+
+using testkit::blocky_image;
+using testkit::EachInstructionSet;
+using testkit::name_of_parameter;
+using testkit::random_image;
 
 /// The ring's differences to its centre, clockwise from the top, from its definition: the pixels between 2.5
 /// and 3.5 from the centre, 16 of them.

@@ -4,11 +4,16 @@
 #include <cmath>
 #include <vector>
 
-#include "cairn/features/kernels/test_kernels.h"
 #include "cairn/features/orb_pattern.h"
+#include "cairn/testing/features/each_instruction_set.h"
+#include "cairn/testing/image/random_images.h"
 
 namespace cairn {
 namespace {
+
+using testkit::EachInstructionSet;
+using testkit::name_of_parameter;
+using testkit::random_image;
 
 using OrbKernelsTest = EachInstructionSet;
 
