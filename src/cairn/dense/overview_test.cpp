@@ -55,23 +55,26 @@ TEST(Overview, a_wall_does_not_change_what_is_up) {
   EXPECT_GT(estimate_up(surface, level_path()).z(), 0.9999);
 }
 
-TEST(Overview, shows_the_whole_cloud_and_path_from_above) {
+TEST(Overview, shows_the_cloud_and_the_whole_path_from_above) {
   const Cloud cloud = floor(0);
   const View view = overview_of(CloudSurface(cloud, level_path(), 0.1), level_path(), 320, 200);
   EXPECT_GT(view.world_from_camera.translation.z(), 1);
-  std::vector<Eigen::Vector3d> points = {level_path()[0].translation};
-  for (const CloudPoint& p : cloud.points) points.emplace_back(p.x, p.y, p.z);
+  const auto pixel_of = [&](const Eigen::Vector3d& point) {
+    return view.camera.project(view.world_from_camera.inverse() * point).value_or(Eigen::Vector2d(-1, -1));
+  };
+  const auto shows = [](const Eigen::Vector2d& pixel) {
+    return pixel.x() > 0 && pixel.x() < 319 && pixel.y() > 0 && pixel.y() < 199;
+  };
+  EXPECT_TRUE(shows(pixel_of(level_path()[0].translation)));
   std::size_t in_view = 0;
   double left = 320, right = 0;
-  for (const Eigen::Vector3d& point : points) {
-    const Eigen::Vector3d in_camera = view.world_from_camera.inverse() * point;
-    ASSERT_GT(in_camera.z(), 0);
-    const Eigen::Vector2d pixel = *view.camera.project(in_camera);
-    in_view += pixel.x() > 0 && pixel.x() < 319 && pixel.y() > 0 && pixel.y() < 199 ? 1 : 0;
+  for (const CloudPoint& p : cloud.points) {
+    const Eigen::Vector2d pixel = pixel_of({p.x, p.y, p.z});
+    in_view += shows(pixel) ? 1 : 0;
     left = std::min(left, pixel.x());
     right = std::max(right, pixel.x());
   }
-  EXPECT_EQ(in_view, points.size());
+  EXPECT_GT(in_view, cloud.points.size() * 98 / 100) << "half a percent may stray over each border";
   EXPECT_GT(right - left, 100) << "and not from afar";
 }
 
