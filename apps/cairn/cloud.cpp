@@ -5,8 +5,8 @@
 
 #include "cairn/core/file.h"
 #include "cairn/dense/cloud_file.h"
-#include "cairn/dense/overview.h"
 #include "cairn/image/codec.h"
+#include "cairn/report/overview.h"
 #include "commands.h"
 #include "fusion.h"
 #include "recording_checks.h"

@@ -11,11 +11,11 @@
 #include "cairn/dense/cloud_file.h"
 #include "cairn/dense/fuse_sequence.h"
 #include "cairn/dense/octree_file.h"
-#include "cairn/dense/overview.h"
 #include "cairn/evaluate/evaluation.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/g2o_file.h"
 #include "cairn/map/map_file.h"
+#include "cairn/report/overview.h"
 #include "fusion.h"
 #include "map_pictures.h"
 

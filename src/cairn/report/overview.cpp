@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/dense/overview.h"
+#include "cairn/report/overview.h"
 
 #include <algorithm>
 #include <cmath>

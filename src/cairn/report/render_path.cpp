@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/dense/render_path.h"
+#include "cairn/report/render_path.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/dense/render.h"
+#include "cairn/report/render.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "cairn/core/error.h"
-#include "cairn/dense/render_path.h"
+#include "cairn/report/render_path.h"
 
 namespace cairn {
 namespace {

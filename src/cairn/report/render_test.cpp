@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/dense/render.h"
+#include "cairn/report/render.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "cairn/core/error.h"
-#include "cairn/dense/overview.h"
 #include "cairn/dense/test_scene.h"
+#include "cairn/report/overview.h"
 
 namespace cairn {
 namespace {

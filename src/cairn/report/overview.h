@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cairn/dense/render.h"
 #include "cairn/dense/surface.h"
+#include "cairn/report/render.h"
 
 namespace cairn {
 

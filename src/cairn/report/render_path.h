@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cairn/dense/render.h"
+#include "cairn/report/render.h"
 
 namespace cairn {
 
