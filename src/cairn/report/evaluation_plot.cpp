@@ -3,18 +3,20 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
+#include "cairn/core/error.h"
+#include "cairn/report/evaluation_report.h"
 #include "cairn/report/trajectory_plot.h"
-#include "evaluate_output.h"
-#include "trajectory_inputs.h"
+#include "cairn/report/trajectory_words.h"
 
-namespace cairn::app {
+namespace cairn {
 namespace {
 
-using Pairs = std::vector<PosePair>;
+using Shown = std::vector<const EvaluatedTrajectory*>;
 
-/// A longer step than this many medians means that poses are missing.
-std::int64_t longest_step_ns(const Pairs& pairs) {
+/// Returns the longest step between poses of which none is missing in between.
+std::int64_t longest_step_ns(std::span<const PosePair> pairs) {
   constexpr std::int64_t kMedians = 5;
   std::vector<std::int64_t> steps;
   for (std::size_t i = 1; i < pairs.size(); ++i) steps.push_back(pairs[i].stamp_ns - pairs[i - 1].stamp_ns);
@@ -41,50 +43,58 @@ std::vector<TrajectoryPlot::Pose> poses_of(const TrajectoryEvaluation& result, s
   return poses;
 }
 
-/// From the first to the last pair of all estimates.
+/// Holds the stamps of the first and the last pair of all estimates.
 struct TimeRange {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
 };
 
-TimeRange time_range(const std::vector<const Evaluated*>& shown) {
+TimeRange time_range(const Shown& shown) {
   TimeRange range;
-  for (const Evaluated* evaluated : shown) {
+  for (const EvaluatedTrajectory* evaluated : shown) {
     range.first_ns = std::min(range.first_ns, evaluated->result.pairs.front().stamp_ns);
     range.last_ns = std::max(range.last_ns, evaluated->result.pairs.back().stamp_ns);
   }
   return range;
 }
 
-void add_titles(const EvaluateArguments& arguments, const std::vector<const Evaluated*>& shown,
-                TrajectoryPlot& plot) {
-  const std::string reference = short_name(arguments.reference);
+void add_titles(const EvaluationReport& report, const Shown& shown, TrajectoryPlot& plot) {
+  const std::string reference = short_name(report.reference_path);
+  const std::string_view alignment = name_of(report.options.alignment);
   if (shown.size() > 1) {
     plot.title = fmt::format("{} estimates against {}", shown.size(), reference);
-    plot.subtitle = fmt::format("aligned by {}; with each its ATE, rmse", arguments.align);
+    plot.subtitle = fmt::format("aligned by {}; with each its ATE, rmse", alignment);
     return;
   }
   const TrajectoryEvaluation& result = shown.front()->result;
   plot.title = fmt::format("ATE {} rmse, {} poses", rmse_text(result), result.pairs.size());
-  plot.subtitle = fmt::format("{} against {}, aligned by {}", short_name(shown.front()->path), reference,
-                              arguments.align);
+  plot.subtitle =
+      fmt::format("{} against {}, aligned by {}", short_name(shown.front()->path), reference, alignment);
+}
+
+/// Returns where the reference was from a second before the estimates begin to a second after they end.
+std::vector<Eigen::Vector3d> reference_during(const TimeRange& range, const Trajectory& reference) {
+  constexpr std::int64_t kMargin = 1'000'000'000;
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& pose : reference) {
+    const bool during = pose.stamp_ns >= range.first_ns - kMargin && pose.stamp_ns <= range.last_ns + kMargin;
+    if (during) places.push_back(pose.world_from_camera.translation);
+  }
+  return places;
 }
 
 }  // namespace
 
-std::string draw_evaluations(const Evaluations& evaluations) {
-  std::vector<const Evaluated*> shown;
-  for (const auto& evaluated : evaluations.estimates)
+std::string draw_evaluation(const EvaluationReport& report) {
+  Shown shown;
+  for (const EvaluatedTrajectory& evaluated : report.estimates)
     if (evaluated.result.status == EvaluationStatus::ok) shown.push_back(&evaluated);
+  require(!shown.empty(), "an estimate is aligned");
   TrajectoryPlot plot;
-  add_titles(evaluations.arguments, shown, plot);
+  add_titles(report, shown, plot);
   const TimeRange range = time_range(shown);
-  constexpr std::int64_t kMargin = 1'000'000'000;
-  for (const auto& pose : evaluations.reference) {
-    const bool during = pose.stamp_ns >= range.first_ns - kMargin && pose.stamp_ns <= range.last_ns + kMargin;
-    if (during) plot.reference.push_back(pose.world_from_camera.translation);
-  }
-  for (const Evaluated* evaluated : shown) {
+  plot.reference = reference_during(range, report.reference);
+  for (const EvaluatedTrajectory* evaluated : shown) {
     const std::string name =
         shown.size() == 1 ? "estimate"
                           : fmt::format("{} {}", short_name(evaluated->path), rmse_text(evaluated->result));
@@ -93,4 +103,4 @@ std::string draw_evaluations(const Evaluations& evaluations) {
   return draw_trajectory_plot(plot);
 }
 
-}  // namespace cairn::app
+}  // namespace cairn
