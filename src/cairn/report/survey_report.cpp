@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "map_outputs.h"
+#include "cairn/report/survey_report.h"
 
 #include <fmt/format.h>
 
@@ -8,13 +8,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common.h"
-#include "map_pictures.h"
+#include "cairn/report/json_pieces.h"
+#include "cairn/report/landmark_picture.h"
+#include "cairn/report/text_builder.h"
 
-namespace cairn::app {
+namespace cairn {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 double ratio(std::int64_t a, std::int64_t b) {
   return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
@@ -59,7 +58,8 @@ Json to_json(const SurveyResult& result) {
   return json;
 }
 
-/// What fell to the rules, most first mentioned as they are asked for; rules to which none fell are left out.
+/// Returns how many landmarks fell to which rule, in the order of the rules; leaves out those to which none
+/// fell.
 std::string describe_cleaning(const SurveyCounts& counts) {
   constexpr std::array<const char*, kCleaningRules> kWords = {
       "seen in too few frames", "too uncertain", "residuals too large", "rays too parallel",
@@ -72,21 +72,21 @@ std::string describe_cleaning(const SurveyCounts& counts) {
   return text.empty() ? "none fell to a rule" : text;
 }
 
-void print_frames(const SurveyCounts& counts, const MapSummary& summary) {
-  fmt::print("frames       {} of {} mapped", counts.frames, summary.sequence_frames);
-  if (counts.without_pose > 0) fmt::print(", {} without pose", counts.without_pose);
-  if (counts.standing > 0) fmt::print(", {} without motion", counts.standing);
-  if (counts.unreadable > 0) fmt::print(", {} unreadable", counts.unreadable);
-  fmt::print("\n");
+void add_frames(const SurveyCounts& counts, const SurveySummary& summary, TextBuilder& text) {
+  text.add("frames       {} of {} mapped", counts.frames, summary.sequence_frames);
+  if (counts.without_pose > 0) text.add(", {} without pose", counts.without_pose);
+  if (counts.standing > 0) text.add(", {} without motion", counts.standing);
+  if (counts.unreadable > 0) text.add(", {} unreadable", counts.unreadable);
+  text.add("\n");
 }
 
 }  // namespace
 
-std::string format_map_report(const SurveyResult& result) {
-  return to_json(result).dump(2) + "\n";
+std::string format_survey_report(const SurveyResult& result) {
+  return format_document(to_json(result));
 }
 
-std::string format_map_json(const SurveyResult& result, const MapSummary& summary) {
+std::string format_survey_json(const SurveyResult& result, const SurveySummary& summary) {
   Json json;
   json["cairn"] = CAIRN_VERSION;
   json["map"] = summary.folder;
@@ -100,40 +100,42 @@ std::string format_map_json(const SurveyResult& result, const MapSummary& summar
                      {"features", times.features},     {"matching", times.matching},
                      {"adjustment", times.adjustment}, {"merging", times.merging},
                      {"writing", times.writing}};
-  json["peak_memory_mb"] = peak_memory_mb();
-  return json.dump(2) + "\n";
+  json["peak_memory_mb"] = summary.peak_memory_mb;
+  return format_document(json);
 }
 
-void print_map_summary(const SurveyResult& result, const MapSummary& summary) {
+std::string format_survey_text(const SurveyResult& result, const SurveySummary& summary) {
   const SurveyCounts& counts = result.counts;
-  print_frames(counts, summary);
-  if (result.resumed_at > 0) fmt::print("resumed      at frame {} of the sequence\n", result.resumed_at);
-  fmt::print("poses        {}", summary.poses_format);
+  TextBuilder text;
+  add_frames(counts, summary, text);
+  if (result.resumed_at > 0) text.add("resumed      at frame {} of the sequence\n", result.resumed_at);
+  text.add("poses        {}", summary.poses_format);
   if (result.moved_rms_m > 0)
-    fmt::print(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
-               100 * result.moved_rms_m, result.turned_rms_deg);
+    text.add(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
+             100 * result.moved_rms_m, result.turned_rms_deg);
   if (result.pose_check.verdict == PoseVerdict::contradiction)
-    fmt::print("\n             they contradict the images: {}", describe(result.pose_check));
-  fmt::print("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
-             ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
-             ratio(counts.matched, counts.frames));
-  fmt::print("tracks       {}, {} in too few frames, {} contradict themselves\n", counts.tracks,
-             counts.too_short, counts.contradictory);
-  fmt::print("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
-  fmt::print("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
-             ratio(counts.sightings, counts.landmarks));
+    text.add("\n             they contradict the images: {}", describe(result.pose_check));
+  text.add("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
+           ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
+           ratio(counts.matched, counts.frames));
+  text.add("tracks       {}, {} in too few frames, {} contradict themselves\n", counts.tracks,
+           counts.too_short, counts.contradictory);
+  text.add("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
+  text.add("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
+           ratio(counts.sightings, counts.landmarks));
   const std::string by_poses = result.pose_std_rms_m > 0
                                    ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
                                    : "none stated of the poses";
-  fmt::print("deviations   {:.2g} m by what the images leave open, {} (RMS, worst direction)\n",
-             result.image_std_rms_m, by_poses);
-  fmt::print("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
-  fmt::print("picture      {}/{}, the landmarks from above\n", summary.folder, kMapPicture);
+  text.add("deviations   {:.2g} m by what the images leave open, {} (RMS, worst direction)\n",
+           result.image_std_rms_m, by_poses);
+  text.add("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
+  text.add("picture      {}/{}, the landmarks from above\n", summary.folder, kLandmarkPicture);
   if (!summary.image_root.empty())
-    fmt::print("colmap       {}/colmap, with --image_path {}\n", summary.folder, summary.image_root);
-  fmt::print("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
-             1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));
-  fmt::print("memory       {:.0f} MB at most\n", peak_memory_mb());
+    text.add("colmap       {}/colmap, with --image_path {}\n", summary.folder, summary.image_root);
+  text.add("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
+           1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));
+  text.add("memory       {:.0f} MB at most\n", summary.peak_memory_mb);
+  return text.take();
 }
 
-}  // namespace cairn::app
+}  // namespace cairn
