@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds the order of the rooms: what may include what.
+"""Holds what a room may include. Which rooms those are is said once, where the room is linked: the PUBLIC and PRIVATE
+lists of its CMakeLists.txt.
 
-1. A file of a room includes only rooms at or above its own in ROOMS, and only the libraries that ROOMS names for it.
-2. A public header (one in the HEADERS list of its room) includes no heavy library.
-3. src/cairn/CMakeLists.txt adds the rooms in the order of ROOMS, then the test kit.
+1. A file of a room includes only its own room and those that its CMakeLists.txt names; a public header (one in HEADERS)
+   only those in PUBLIC. Tests may also include what these rooms may, and what their executable is linked with.
+2. A room that is named is included by a source; one in PUBLIC by a public header.
+3. A room names only rooms above its own in ROOMS; src/cairn/CMakeLists.txt adds them in that order, then the test kit.
 4. Only tests and the kit itself include the test kit, src/cairn/testing. Its folders have the names of rooms; what lies
-   in one uses that room and those above it, and so do the tests that include it.
+   in one uses that room and those above it. A test includes the kits that its CMakeLists.txt names in KIT, and those above.
+5. A file includes only the libraries that ROOMS names for its room, and a public header no heavy one.
+
+With --table it prints which rooms each room may include.
 """
 
 import argparse
-import collections
 import re
 import sys
 from pathlib import Path
@@ -38,9 +42,6 @@ KIT = "testing"
 EVERYWHERE = {"fmt"}
 EIGEN_FROM = "geometry"  # this room and those after it
 HEAVY = {"opencv", "ceres", "octomap", "yaml-cpp", "nlohmann", "CLI"}
-
-# A file: its room (of a file of the kit, the room whose name its folder has) and what it is.
-File = collections.namedtuple("File", "room is_test is_kit is_public")
 
 # What an include begins with, and the library that it comes from.
 LIBRARIES = {
@@ -71,85 +72,183 @@ def libraries_allowed(room, is_test):
     return allowed | {"gtest"} if is_test else allowed
 
 
-def complaint_about_library(header, file):
+def complaint_about_library(header, room, is_test, is_public):
     library = library_of(header)
     if library is None:
         return f"<{header}> is of no library that tests/check_layers.py knows; add it to LIBRARIES and to one room"
     if not library:
         return None
-    if library not in libraries_allowed(file.room, file.is_test or file.is_kit):
-        return f"room '{file.room}' may not use {library} (<{header}>)"
-    if file.is_public and library in HEAVY:
+    if library not in libraries_allowed(room, is_test):
+        return f"room '{room}' may not use {library} (<{header}>)"
+    if is_public and library in HEAVY:
         return f"a public header may not include {library} (<{header}>); include it in the .cpp"
     return None
 
 
-def complaint_about_room(header, file):
+class Links:
+    """Which rooms the CMakeLists.txt of a room names."""
+
+    KEYWORDS = ("HEADERS", "SOURCES", "TESTS", "KIT", "LONG", "PUBLIC", "PRIVATE")
+
+    def __init__(self, source, room):
+        self.path = source / room / "CMakeLists.txt"
+        text = re.sub(r"#.*", "", self.path.read_text()) if self.path.exists() else ""
+        lists = dict.fromkeys(self.KEYWORDS, "")
+        described = re.search(rf"\bcairn_room\(\s*{room}\b(.*?)\)", text, re.S)
+        parts = re.split(rf"\b({'|'.join(self.KEYWORDS)})\b", described.group(1)) if described else [""]
+        for keyword, content in zip(parts[1::2], parts[2::2]):
+            lists[keyword] += content
+        self.headers = set(lists["HEADERS"].split())
+        self.public, self.private = rooms_in(lists["PUBLIC"]), rooms_in(lists["PRIVATE"])
+        self.kits = set(lists["KIT"].split())
+        tests = re.findall(rf"\btarget_link_libraries\(\s*cairn_{room}_tests\b(.*?)\)", text, re.S)
+        self.tests = rooms_in(" ".join(tests)) | self.kits
+
+    @property
+    def all(self):
+        return self.public | self.private
+
+
+def rooms_in(links):
+    return set(re.findall(r"\bcairn::(\w+)", links))
+
+
+def reached(rooms, table):
+    """The rooms themselves and all that they may include, directly or not."""
+    found, ahead = set(), list(rooms)
+    while ahead:
+        room = ahead.pop()
+        if room not in found:
+            found.add(room)
+            ahead += table[room].all if room in table else ()
+    return found
+
+
+def is_above(room, other):
+    """Whether `room` is the other or above it."""
+    names = list(ROOMS)
+    return room in ROOMS and names.index(room) <= names.index(other)
+
+
+def complaint_about_kit(header, room, table, is_test):
+    kit = header.split("/")[2]
+    if not is_test:
+        return f'only tests may include the test kit ("{header}")'
+    if not any(is_above(kit, named) for named in table[room].kits):
+        return f"tests of '{room}' may not include \"{header}\": its CMakeLists.txt names no such KIT"
+    return None
+
+
+def complaint_about_room(header, room, table, is_test, is_public):
     parts = header.split("/")
     if parts[0] != "cairn" or len(parts) not in (3, 4):
         return f'"{header}": write the whole path, "cairn/<room>/[<folder>/]<file>.h"'
     if parts[1] == KIT:
-        if not (file.is_test or file.is_kit):
-            return f'only tests may include the test kit ("{header}")'
-        parts = parts[1:]
-    names = list(ROOMS)
-    if parts[1] not in ROOMS:
-        return f'"{header}": there is no room \'{parts[1]}\''
-    if names.index(parts[1]) > names.index(file.room):
-        return f"room '{file.room}' may not include '{parts[1]}', which is further down (\"{header}\")"
+        return complaint_about_kit(header, room, table, is_test)
+    other, links = parts[1], table[room]
+    if other not in ROOMS:
+        return f'"{header}": there is no room \'{other}\''
+    if other == room:
+        return None
+    if is_test:
+        allowed, place = reached(links.all | links.tests, table), "PUBLIC or PRIVATE, nor is it linked to the tests"
+    elif is_public:
+        allowed, place = links.public, "PUBLIC, and this is a public header"
+    else:
+        allowed, place = links.all, "PUBLIC or PRIVATE"
+    if other not in allowed:
+        return f"room '{room}' may not include '{other}' (\"{header}\"): its CMakeLists.txt does not name cairn::{other} in {place}"
     return None
 
 
-def public_headers(room_folder):
-    """The names in the HEADERS list of the room's CMakeLists.txt."""
-    description = room_folder / "CMakeLists.txt"
-    text = re.sub(r"#.*", "", description.read_text()) if description.exists() else ""
-    match = re.search(r"\bHEADERS\s+(.*?)(?:\b[A-Z]{4,}\b|\))", text, re.S)
-    return set(match.group(1).split()) if match else set()
+def is_test_file(path):
+    return path.name.endswith("_test.cpp")
 
 
-def check_file(path, file):
+def included(path):
+    """(number of the line, library or None, own header or None) of each include."""
+    matches = ((number, INCLUDE.match(line)) for number, line in enumerate(path.read_text().splitlines(), 1))
+    return [(number, *match.groups()) for number, match in matches if match]
+
+
+def check_file(path, room, table, is_public):
     complaints = []
-    for number, line in enumerate(path.read_text().splitlines(), 1):
-        match = INCLUDE.match(line)
-        if not match:
-            continue
-        library, own = match.groups()
-        complaint = complaint_about_room(own, file) if own else complaint_about_library(library, file)
+    for number, library, own in included(path):
+        complaint = (complaint_about_room(own, room, table, is_test_file(path), is_public) if own
+                     else complaint_about_library(library, room, is_test_file(path), is_public))
         if complaint:
             complaints.append(f"{path}:{number}: {complaint}")
     return complaints
 
 
-def describe(path, source):
-    """The File at `path`, or None if it is in no room."""
-    room, *below = path.relative_to(source).parts
-    is_kit = room == KIT
-    if is_kit:
-        room = below[0]
-    if room not in ROOMS:
-        return None
-    is_public = path.suffix == ".h" if is_kit else path.name in public_headers(source / room)
-    return File(room, path.name.endswith("_test.cpp"), is_kit, is_public)
-
-
-def check_rooms(source):
+def check_kit(path, room):
+    """A file of the kit: it may use the room whose name its folder has, and those above."""
     complaints = []
-    for path in cpp_files(source.parent.parent, folders=("src/cairn",)):
-        file = describe(path, source)
-        if file:
-            complaints += check_file(path, file)
-        else:
-            complaints.append(f"{path}: '{path.parent.name}' is no room of tests/check_layers.py")
+    for number, library, own in included(path):
+        complaint = None
+        if not own:
+            complaint = complaint_about_library(library, room, True, path.suffix == ".h")
+        elif not is_above(next(part for part in own.split("/")[1:] if part != KIT), room):
+            complaint = f"the kit of '{room}' may not include \"{own}\""
+        if complaint:
+            complaints.append(f"{path}:{number}: {complaint}")
     return complaints
 
 
 def check_program(root):
     """The program is above all rooms, but the test kit is not for it."""
-    return [f'{path}:{number}: only tests may include the test kit'
-            for path in cpp_files(root, folders=("apps",))
-            for number, line in enumerate(path.read_text().splitlines(), 1)
-            if (match := INCLUDE.match(line)) and (match.group(2) or "").startswith(f"cairn/{KIT}/")]
+    return [f"{path}:{number}: only tests may include the test kit" for path in cpp_files(root, folders=("apps",))
+            for number, _, own in included(path) if (own or "").startswith(f"cairn/{KIT}/")]
+
+
+def check_names(room, links, by_sources, by_headers):
+    """Rooms that are named for nothing, that are no rooms, or that are further down."""
+    names = list(ROOMS)
+    for other in sorted(links.all | links.tests):
+        if other not in ROOMS:
+            yield f"{links.path}: there is no room '{other}'"
+        elif other in links.all and names.index(other) >= names.index(room):
+            yield f"{links.path}: room '{room}' may not use '{other}', which is not above it"
+    for other in sorted(links.all - by_sources):
+        yield f"{links.path}: names cairn::{other}, of which no source of the room includes anything"
+    for other in sorted((links.public & by_sources) - by_headers):
+        yield f"{links.path}: names cairn::{other} in PUBLIC, but no public header includes it; name it in PRIVATE"
+    for other in sorted(links.public & links.private):
+        yield f"{links.path}: names cairn::{other} in PUBLIC and in PRIVATE"
+
+
+def rooms_included(paths):
+    owns = (own.split("/") for path in paths for _, _, own in included(path) if own)
+    return {parts[1] for parts in owns if parts[0] == "cairn" and len(parts) > 2} - {KIT}
+
+
+def check_rooms(source):
+    table = {room: Links(source, room) for room in ROOMS}
+    files = {room: [] for room in ROOMS}
+    complaints = []
+    for path in cpp_files(source.parent.parent, folders=("src/cairn",)):
+        room, *below = path.relative_to(source).parts
+        if room == KIT and below[0] in ROOMS:
+            complaints += check_kit(path, below[0])
+            continue
+        if room not in ROOMS:
+            complaints.append(f"{path}: '{room}' is no room of tests/check_layers.py")
+            continue
+        is_public = path.relative_to(source / room).as_posix() in table[room].headers
+        complaints += check_file(path, room, table, is_public)
+        if not is_test_file(path):
+            files[room].append((path, is_public))
+    for room, links in table.items():
+        by_sources = rooms_included(path for path, _ in files[room])
+        by_headers = rooms_included(path for path, is_public in files[room] if is_public)
+        complaints += check_names(room, links, by_sources, by_headers)
+    return complaints
+
+
+def print_table(source):
+    for room in ROOMS:
+        links = Links(source, room)
+        print(f"{room:<10} {' '.join(other for other in ROOMS if other in links.all)}")
 
 
 def check_order(description):
@@ -164,9 +263,13 @@ def check_order(description):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=Path, default=ROOT)
-    root = parser.parse_args().root
-    source = root / "src" / "cairn"
-    complaints = check_order(source / "CMakeLists.txt") + check_rooms(source) + check_program(root)
+    parser.add_argument("--table", action="store_true", help="print which rooms each room may include")
+    arguments = parser.parse_args()
+    source = arguments.root / "src" / "cairn"
+    if arguments.table:
+        print_table(source)
+        return 0
+    complaints = check_order(source / "CMakeLists.txt") + check_rooms(source) + check_program(arguments.root)
     print(*complaints, sep="\n", end="\n" if complaints else "")
     print(f"layers: {len(complaints)} complaints")
     return 1 if complaints else 0

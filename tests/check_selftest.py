@@ -44,7 +44,17 @@ class Layers(Sample):
     def setUp(self):
         super().setUp()
         self.write("src/cairn/CMakeLists.txt", "add_subdirectory(core)\nadd_subdirectory(map)\nadd_subdirectory(optimize)\n")
-        self.write("src/cairn/optimize/CMakeLists.txt", "cairn_room(optimize\n  HEADERS window.h\n  SOURCES window.cpp)\n")
+        self.write("src/cairn/map/CMakeLists.txt", "cairn_room(map\n  HEADERS map.h\n  PRIVATE fmt::fmt)\n")
+        self.link("PUBLIC cairn::map")
+        self.write("src/cairn/optimize/window.h", '#include "cairn/map/map.h"\n')
+
+    def link(self, links, after=""):
+        self.write("src/cairn/optimize/CMakeLists.txt",
+                   f"cairn_room(optimize\n  HEADERS window.h\n  SOURCES window.cpp\n  {links})  # cairn::core\n{after}")
+
+    def refuse_links(self, links, message, after=""):
+        self.link(links, after)
+        self.expect("src/cairn/core/text.h", "\n", message)
 
     def expect(self, name, text, message):
         self.write(name, text)
@@ -52,14 +62,45 @@ class Layers(Sample):
         self.assertEqual(code, 1 if message else 0, output)
         self.assertIn(message or "0 complaints", output)
 
-    def test_accepts_rooms_above_and_named_libraries(self):
+    def test_accepts_rooms_that_are_linked_and_named_libraries(self):
         self.expect("src/cairn/optimize/window.cpp",
                     '#include <ceres/ceres.h>\n#include <fmt/format.h>\n#include <unistd.h>\n#include <vector>\n'
                     '#include "cairn/optimize/window.h"\n#include "cairn/map/map.h"\n', None)
 
+    def test_refuses_a_room_above_that_is_not_linked(self):
+        self.expect("src/cairn/optimize/window.cpp", '\n#include "cairn/core/text.h"\n',
+                    "window.cpp:2: room 'optimize' may not include 'core'")
+
+    def test_refuses_a_room_in_a_public_header_that_is_linked_privately(self):
+        self.refuse_links("PRIVATE cairn::map", "window.h:1: room 'optimize' may not include 'map'")
+
+    def test_accepts_in_a_test_what_a_linked_room_may_include(self):
+        self.write("src/cairn/map/CMakeLists.txt", "cairn_room(map\n  HEADERS map.h\n  PUBLIC cairn::core)\n")
+        self.write("src/cairn/map/map.h", '#include "cairn/core/text.h"\n')
+        self.expect("src/cairn/optimize/window_test.cpp", '#include "cairn/core/text.h"\n', None)
+
+    def test_accepts_in_a_test_what_its_executable_is_linked_with(self):
+        self.link("PUBLIC cairn::map", "target_link_libraries(cairn_optimize_tests PRIVATE cairn::core)\n")
+        self.expect("src/cairn/optimize/window_test.cpp", '#include "cairn/core/text.h"\n', None)
+
+    def test_refuses_in_a_test_what_nothing_is_linked_with(self):
+        self.expect("src/cairn/optimize/window_test.cpp", '#include "cairn/core/text.h"\n',
+                    "room 'optimize' may not include 'core'")
+
     def test_refuses_a_room_further_down(self):
+        self.write("src/cairn/map/CMakeLists.txt", "cairn_room(map\n  HEADERS map.h\n  PUBLIC cairn::optimize)\n")
         self.expect("src/cairn/map/map.h", '#include "cairn/optimize/window.h"\n',
-                    "map.h:1: room 'map' may not include 'optimize'")
+                    "room 'map' may not use 'optimize', which is not above it")
+
+    def test_refuses_a_link_of_which_nothing_is_included(self):
+        self.refuse_links("PUBLIC cairn::map cairn::core", "names cairn::core, of which no source")
+
+    def test_refuses_a_public_link_that_only_sources_need(self):
+        self.write("src/cairn/optimize/window.cpp", '#include "cairn/core/text.h"\n')
+        self.refuse_links("PUBLIC cairn::map cairn::core", "names cairn::core in PUBLIC, but no public header includes it")
+
+    def test_refuses_a_link_to_an_unknown_room(self):
+        self.refuse_links("PUBLIC cairn::map cairn::attic", "there is no room 'attic'")
 
     def test_refuses_an_unknown_room(self):
         self.expect("src/cairn/map/map.h", '#include "cairn/maps/map.h"\n', "there is no room 'maps'")
@@ -104,6 +145,11 @@ class Layers(Sample):
 
     def test_refuses_rooms_out_of_order(self):
         self.expect("src/cairn/CMakeLists.txt", "add_subdirectory(map)\nadd_subdirectory(core)\n", "expected the rooms")
+
+    def test_prints_the_table(self):
+        code, output = self.run_command(sys.executable, TESTS / "check_layers.py", "--root", self.root, "--table")
+        self.assertEqual(code, 0, output)
+        self.assertIn("optimize   map\n", output)
 
 
 class Lengths(Sample):

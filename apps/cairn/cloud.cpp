@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
 
 #include "cairn/core/file.h"
 #include "cairn/dense/cloud_file.h"
-#include "cairn/dense/overview.h"
 #include "cairn/image/codec.h"
+#include "cairn/report/fusion_report.h"
+#include "cairn/report/overview.h"
 #include "commands.h"
 #include "fusion.h"
 #include "recording_checks.h"
@@ -39,38 +43,6 @@ void declare(CommandLine& app, CloudArguments& arguments) {
   app.footer("Example: cairn cloud demo/room --poses run/trajectory.txt -o room.ply");
 }
 
-struct Result {
-  FusionReport fusion;
-  std::size_t points = 0;
-  CloudBounds bounds;
-  std::int64_t bytes = 0;
-  double seconds = 0;
-};
-
-void print_text(const CloudArguments& arguments, const Result& result) {
-  const Eigen::Vector3f size = result.bounds.high - result.bounds.low;
-  print_report(result.fusion);
-  fmt::print("points       {}, one per {} m\n", result.points, arguments.options.voxel_size);
-  fmt::print("box          {:.2f} x {:.2f} x {:.2f} m\n", size.x(), size.y(), size.z());
-  fmt::print("file         {}, {}\n", arguments.output, format_bytes(result.bytes));
-  if (!arguments.picture.empty()) fmt::print("picture      {}\n", arguments.picture);
-  fmt::print("seconds      {:.2f}\n", result.seconds);
-}
-
-void print_json(const CloudArguments& arguments, const Result& result) {
-  const auto corner = [](const Eigen::Vector3f& p) { return nlohmann::ordered_json{p.x(), p.y(), p.z()}; };
-  nlohmann::ordered_json json = {{"output", arguments.output},
-                                 {"frames", to_json(result.fusion)},
-                                 {"points", result.points},
-                                 {"voxel_m", arguments.options.voxel_size},
-                                 {"box_low_m", corner(result.bounds.low)},
-                                 {"box_high_m", corner(result.bounds.high)},
-                                 {"bytes", result.bytes},
-                                 {"seconds", result.seconds}};
-  if (!arguments.picture.empty()) json["picture"] = arguments.picture;
-  fmt::print("{}\n", json.dump(2));
-}
-
 /// The path without the gaps where frames have no pose.
 CameraPath path_of(const PosedSequence& posed) {
   CameraPath path;
@@ -79,25 +51,28 @@ CameraPath path_of(const PosedSequence& posed) {
   return path;
 }
 
-Result build_cloud(const CloudArguments& arguments) {
+CloudReport build_cloud(const CloudArguments& arguments) {
   const Stopwatch watch;
   const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
   const auto progress = make_progress(arguments.common);
   check_recording(posed.sequence, *progress);
   const Executor executor(arguments.common.thread_count());
   CloudBuilder builder(arguments.options);
-  Result result;
-  result.fusion =
+  CloudReport report;
+  report.output = arguments.output;
+  report.picture = arguments.picture;
+  report.voxel_m = arguments.options.voxel_size;
+  report.fusion =
       fuse_sequence(posed.sequence, posed.world_from_camera, {.cloud = &builder}, executor, *progress);
   const Cloud cloud = builder.take();
   write_cloud(arguments.output, cloud);
   if (!arguments.picture.empty())
     write_png(arguments.picture, draw_overview(cloud, path_of(posed), arguments.options.voxel_size));
-  result.points = cloud.points.size();
-  result.bounds = bounds_of(cloud);
-  result.bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.output));
-  result.seconds = watch.seconds();
-  return result;
+  report.points = cloud.points.size();
+  report.bounds = bounds_of(cloud);
+  report.bytes = static_cast<std::int64_t>(std::filesystem::file_size(arguments.output));
+  report.seconds = watch.seconds();
+  return report;
 }
 
 }  // namespace
@@ -113,8 +88,8 @@ int run_cloud(int argc, char** argv) {
   std::optional<AtomicFile> picture_probe;
   if (!arguments.picture.empty()) picture_probe.emplace(arguments.picture);
 
-  const Result result = build_cloud(arguments);
-  arguments.common.json ? print_json(arguments, result) : print_text(arguments, result);
+  const CloudReport report = build_cloud(arguments);
+  fmt::print("{}", arguments.common.json ? format_cloud_json(report) : format_cloud_text(report));
   return 0;
 }
 

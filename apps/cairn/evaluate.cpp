@@ -3,17 +3,42 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/evaluate/evaluation.h"
+#include "cairn/report/evaluation_report.h"
+#include "cairn/report/trajectory_words.h"
 #include "camera_argument.h"
 #include "commands.h"
+#include "common.h"
 #include "compared_trajectories.h"
-#include "evaluate_output.h"
+#include "pose_arguments.h"
+#include "trajectory_inputs.h"
 
 namespace cairn::app {
 namespace {
+
+struct EvaluateArguments {
+  CommonOptions common;
+  std::vector<std::string> estimates;
+  std::vector<std::string> within;  ///< --within M,DEG
+  std::vector<PoseTolerance> tolerances;
+  std::optional<std::int64_t> queries;
+  std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
+  StampOffset offset;                    ///< added to the estimates' stamps
+  std::vector<double> rpe_deltas = {1};  ///< in rpe_unit
+  bool rpe_all_pairs = false;
+  EvaluationOptions options;
+};
 
 const std::map<std::string, AlignmentMode> kAlignments = {
     {"se3", AlignmentMode::se3}, {"sim3", AlignmentMode::sim3}, {"none", AlignmentMode::none}};
@@ -113,14 +138,13 @@ void check(EvaluateArguments& arguments) {
 
 /// Where no file says a time there are no intervals in seconds.
 void leave_out_times(EvaluateArguments& arguments) {
-  arguments.has_times = false;
   std::erase_if(arguments.options.rpe, [](const RpeOptions& rpe) { return rpe.unit == RpeUnit::seconds; });
   if (arguments.rpe_unit != "seconds") return;
   throw InputError({"--rpe-unit", 0, "frames or metres, as no file has time stamps", "seconds",
                     "Choose another unit, or give one of the trajectories with time stamps."});
 }
 
-void check_queries(const EvaluateArguments& arguments, const Evaluated& evaluated) {
+void check_queries(const EvaluateArguments& arguments, const EvaluatedTrajectory& evaluated) {
   const std::int64_t poses = std::ssize(evaluated.estimate);
   if (!arguments.queries || *arguments.queries >= poses) return;
   throw InputError({"--queries", 0, fmt::format("at least {}, the poses of {}", poses, evaluated.path),
@@ -128,14 +152,37 @@ void check_queries(const EvaluateArguments& arguments, const Evaluated& evaluate
                     "Give the number of images that were looked for."});
 }
 
-Evaluations evaluate(const EvaluateArguments& arguments, const ComparedTrajectories& compared) {
-  Evaluations evaluations{arguments, compared.reference, {}, compared.start_offsets_ns};
-  for (std::size_t i = 0; i < compared.estimates.size(); ++i)
-    evaluations.estimates.push_back({arguments.estimates[i], compared.estimates[i], {}});
-  for (auto& [path, estimate, result] : evaluations.estimates)
-    result = evaluate_trajectory(estimate, compared.reference, arguments.options);
-  for (const Evaluated& evaluated : evaluations.estimates) check_queries(arguments, evaluated);
-  return evaluations;
+RpeUnit rpe_unit(const EvaluateArguments& arguments) {
+  return *std::find_if(std::begin(kUnits), std::end(kUnits),
+                       [&](RpeUnit unit) { return name_of(unit) == arguments.rpe_unit; });
+}
+
+EvaluationReport evaluate(const EvaluateArguments& arguments, ComparedTrajectories compared) {
+  EvaluationReport report{
+      arguments.reference, std::move(compared.reference), arguments.options, rpe_unit(arguments),
+      compared.has_times,  arguments.tolerances,          arguments.queries, {}};
+  for (std::size_t i = 0; i < compared.estimates.size(); ++i) {
+    TrajectoryEvaluation result =
+        evaluate_trajectory(compared.estimates[i], report.reference, arguments.options);
+    report.estimates.push_back({arguments.estimates[i], std::move(compared.estimates[i]), std::move(result)});
+  }
+  for (const EvaluatedTrajectory& evaluated : report.estimates) check_queries(arguments, evaluated);
+  return report;
+}
+
+/// Says on stderr why there is nothing to compare and what to do, or what to beware of.
+void print_doubts(const EvaluationReport& report, std::size_t index, std::int64_t start_offset_ns) {
+  const auto& [path, estimate, result] = report.estimates[index];
+  const std::string name = report.estimates.size() > 1 ? short_name(path) + ": " : "";
+  if (result.status == EvaluationStatus::no_pairs) {
+    fmt::print(stderr, "cairn: {}{}\n", name,
+               explain_no_pairs(estimate, report.reference, report.options.max_gap_s, start_offset_ns));
+  } else if (result.status == EvaluationStatus::not_alignable) {
+    fmt::print(stderr, "cairn: {}no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
+               name, name_of(report.options.alignment), result.pairs.size(), explain(result.absolute.status));
+  } else {
+    warn_of_free_turn(short_name(path), result.absolute.turn_uncertainty);
+  }
 }
 
 }  // namespace
@@ -146,19 +193,20 @@ int run_evaluate(int argc, char** argv) {
   declare(app, arguments);
   if (const auto code = app.parse(argc, argv)) return *code;
   check(arguments);
-  const ComparedTrajectories compared =
+  ComparedTrajectories compared =
       read_compared({arguments.estimates, arguments.reference, arguments.camera, arguments.offset});
   if (!compared.has_times) leave_out_times(arguments);
-  const Evaluations evaluations = evaluate(arguments, compared);
-  for (const auto& evaluated : evaluations.estimates) print_doubts(evaluations, evaluated);
-  const auto failed = std::count_if(evaluations.estimates.begin(), evaluations.estimates.end(),
+  const std::vector<std::int64_t> start_offsets_ns = compared.start_offsets_ns;
+  const EvaluationReport report = evaluate(arguments, std::move(compared));
+  for (std::size_t i = 0; i < report.estimates.size(); ++i) print_doubts(report, i, start_offsets_ns.at(i));
+  const auto failed = std::count_if(report.estimates.begin(), report.estimates.end(),
                                     [](const auto& e) { return e.result.status != EvaluationStatus::ok; });
-  const bool any = failed < std::ssize(evaluations.estimates);
-  if (any && !arguments.plot.empty()) write_file(arguments.plot, draw_evaluations(evaluations));
+  const bool any = failed < std::ssize(report.estimates);
+  if (any && !arguments.plot.empty()) write_file(arguments.plot, draw_evaluation(report));
   if (arguments.common.json) {
-    print_evaluations_json(evaluations);
+    fmt::print("{}", format_evaluation_json(report));
   } else if (any) {
-    print_evaluations(evaluations);
+    fmt::print("{}", format_evaluation_text(report));
   }
   return failed == 0 ? 0 : 1;
 }

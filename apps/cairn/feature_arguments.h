@@ -7,6 +7,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/features/extractor.h"
+#include "cairn/report/features_report.h"
 #include "common.h"
 
 namespace cairn::app {
@@ -25,15 +26,8 @@ void add_feature_options(CommandLine& app, FeatureArguments& arguments);
 /// For the commands that print times.
 void add_repeat_option(CommandLine& app, FeatureArguments& arguments);
 
-/// Features of one image and how long they took.
-struct TimedFeatures {
-  std::string path;
-  GrayImage image;
-  Features features;
-  double time_ms = 0;  ///< median of the repetitions, decoding not included
-};
-
-/// Reads and extracts. InputError for an image that cannot be read.
+/// Reads an image and extracts its features; the time is the median of the repetitions. InputError for an
+/// image that cannot be read.
 [[nodiscard]] TimedFeatures extract_timed(const std::string& path, const FeatureArguments& arguments,
                                           const Extractor& extractor, const Executor& executor);
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/image/codec.h"
 #include "cairn/report/feature_picture.h"
+#include "cairn/report/features_report.h"
 #include "cairn/sequence/skipped_frames.h"
 #include "commands.h"
 #include "feature_arguments.h"
@@ -41,30 +45,9 @@ void check(const FeaturesArguments& arguments) {
   }
 }
 
-std::string format_csv(const std::vector<Keypoint>& keypoints) {
-  std::string csv = "u,v,size,angle_deg,response\n";
-  for (const Keypoint& k : keypoints)
-    csv += fmt::format("{},{},{},{},{}\n", k.u, k.v, k.size, k.angle_deg, k.response);
-  return csv;
-}
-
-nlohmann::ordered_json to_json(const TimedFeatures& timed) {
-  return {{"image", timed.path},
-          {"width", timed.image.width()},
-          {"height", timed.image.height()},
-          {"keypoints", timed.features.keypoints.size()},
-          {"descriptor_bytes", timed.features.descriptors.bytes()},
-          {"time_ms", timed.time_ms}};
-}
-
-std::string to_text(const TimedFeatures& timed) {
-  return fmt::format("{}  {}x{}  {} keypoints  {:.3f} ms\n", timed.path, timed.image.width(),
-                     timed.image.height(), timed.features.keypoints.size(), timed.time_ms);
-}
-
 void write_outputs(const TimedFeatures& timed, const std::string& picture, std::optional<AtomicFile>& list) {
   if (!picture.empty()) write_png(picture, draw_keypoints(timed.image, timed.features.keypoints));
-  if (list) list->write(format_csv(timed.features.keypoints));
+  if (list) list->write(format_keypoints_csv(timed.features.keypoints));
 }
 
 }  // namespace
@@ -82,16 +65,14 @@ int run_features(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   const auto progress = make_progress(arguments.common);
   progress->start("features", static_cast<std::int64_t>(arguments.images.size()), "images");
-  nlohmann::ordered_json json = nlohmann::ordered_json::array();
   SkippedFrames skipped(*progress, "image");
-  std::string text;  // printed after all warnings
+  std::vector<FeatureCounts> counts;  // printed after all warnings
   for (std::size_t i = 0; i < arguments.images.size(); ++i) {
     if (progress->stop_requested()) return 1;
     try {
       const TimedFeatures timed = extract_timed(arguments.images[i], arguments, *extractor, executor);
       skipped.take();
-      json.push_back(to_json(timed));
-      text += to_text(timed);
+      counts.push_back(counts_of(timed));
       if (arguments.images.size() == 1) write_outputs(timed, arguments.draw, output);
     } catch (const InputError&) {
       if (arguments.images.size() == 1) throw;
@@ -101,16 +82,9 @@ int run_features(int argc, char** argv) {
   }
   progress->finish();
   skipped.finish();
-  if (skipped.count() > 0)
-    text += fmt::format("{} images cannot be read and were skipped\n", skipped.count());
   if (output) output->commit();
-  if (arguments.common.json)
-    text =
-        nlohmann::ordered_json{
-            {"method", arguments.method}, {"images", json}, {"unreadable", skipped.count()}}
-            .dump(2) +
-        "\n";
-  fmt::print("{}", text);
+  fmt::print("{}", arguments.common.json ? format_features_json(arguments.method, counts, skipped.count())
+                                         : format_features_text(counts, skipped.count()));
   return 0;
 }
 

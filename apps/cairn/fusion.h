@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <vector>
 
 #include "cairn/core/stopwatch.h"
 #include "cairn/dense/fuse_sequence.h"
@@ -19,11 +20,5 @@ struct PosedSequence {
 
 [[nodiscard]] PosedSequence open_posed_sequence(const SequenceArguments& arguments,
                                                 const PoseArguments& poses);
-
-void print_report(const FusionReport& report);
-[[nodiscard]] nlohmann::ordered_json to_json(const FusionReport& report);
-
-/// "1.5 MB"
-[[nodiscard]] std::string format_bytes(std::int64_t bytes);
 
 }  // namespace cairn::app

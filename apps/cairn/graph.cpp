@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <nlohmann/json.hpp>
-
 #include "cairn/core/file.h"
 #include "cairn/map/g2o_file.h"
 #include "cairn/optimize/pose_graph_optimizer.h"
+#include "cairn/report/graph_report.h"
 #include "commands.h"
 #include "common.h"
 #include "named_values.h"
@@ -53,37 +51,6 @@ void declare(CommandLine& app, GraphArguments& arguments) {
       "poses so far are written all the same.");
 }
 
-nlohmann::ordered_json to_json(const GraphArguments& arguments, const PoseGraph& graph,
-                               const PoseGraphReport& report) {
-  return {{"vertices", graph.vertices.size()},
-          {"edges", graph.edges.size()},
-          {"components", report.components},
-          {"held", report.held},
-          {"robust", arguments.robust},
-          {"started_at", report.started_at == PoseGraphStart::chordal ? "chordal" : "given"},
-          {"chi2_before", report.chi2_before},
-          {"chi2_start", report.chi2_start},
-          {"chi2_after", report.chi2_after},
-          {"iterations", report.iterations},
-          {"converged", report.converged},
-          {"termination", report.termination},
-          {"seconds", report.seconds},
-          {"output", arguments.output}};
-}
-
-void print_report(const GraphArguments& arguments, const PoseGraph& graph, const PoseGraphReport& report) {
-  const char* relaxed = report.started_at == PoseGraphStart::chordal ? "chordal relaxation" : "poses given";
-  fmt::print("vertices     {}\nedges        {}\n", graph.vertices.size(), graph.edges.size());
-  if (report.components > 1)
-    fmt::print("components   {}, not connected with each other\n", report.components);
-  fmt::print("chi2 before  {:.9g}\n", report.chi2_before);
-  fmt::print("chi2 start   {:.9g}  ({})\n", report.chi2_start, relaxed);
-  fmt::print("chi2 after   {:.9g}{}\n", report.chi2_after,
-             arguments.robust == "none" ? "" : "  (without the robust kernel)");
-  fmt::print("iterations   {}, {}\n", report.iterations, report.converged ? "converged" : "NOT converged");
-  fmt::print("seconds      {:.2f}\nwritten to   {}\n", report.seconds, arguments.output);
-}
-
 }  // namespace
 
 int run_graph(int argc, char** argv) {
@@ -101,11 +68,9 @@ int run_graph(int argc, char** argv) {
   const PoseGraphReport report = optimize_pose_graph(graph, arguments.options, progress.get());
   output.write(format_g2o(graph));
   output.commit();
-  if (arguments.common.json) {
-    fmt::print("{}\n", to_json(arguments, graph, report).dump(2));
-  } else {
-    print_report(arguments, graph, report);
-  }
+  const GraphSummary summary{arguments.output, arguments.robust};
+  fmt::print("{}", arguments.common.json ? format_graph_json(graph, report, summary)
+                                         : format_graph_text(graph, report, summary));
   if (!report.converged)
     progress->warn(fmt::format("{}: not converged. {}", arguments.input, report.termination));
   return report.converged ? 0 : 1;

@@ -7,9 +7,9 @@
 #include "cairn/frontend/frontend.h"
 #include "cairn/localize/localize_sequence.h"
 #include "cairn/map/map_view.h"
+#include "cairn/report/localization_report.h"
 #include "commands.h"
 #include "common.h"
-#include "localize_outputs.h"
 #include "localize_parameters.h"
 #include "localize_pictures.h"
 #include "localize_query.h"
@@ -100,7 +100,7 @@ int run_localize(int argc, char** argv) {
   if (const auto code = app.parse(argc, argv)) return *code;
 
   Stopwatch watch;
-  LocalizeSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}, {}, {}};
+  LocalizationSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}, {}};
   const MapView map(arguments.map);
   summary.open_seconds = watch.seconds();
   const LocalizeParameters parameters = gather_parameters(arguments, map.info());
@@ -122,7 +122,7 @@ int run_localize(int argc, char** argv) {
       localizer, sequence, frontend,
       {read_priors(arguments, sequence), follows(arguments, sequence, *progress), parameters.localize.trust},
       executor, *progress);
-  summary.unreadable = found.unreadable;
+  summary.unreadable = found.unreadable.size();
   check.wait();
   write_found_picture(arguments.map, found.images, folder.work());
   if (arguments.draw) draw_pictures(folder.work() / "pictures", sequence, camera, found.images);
@@ -130,15 +130,16 @@ int run_localize(int argc, char** argv) {
   summary.images = sequence.frames.size();
   summary.stamps = describe_stamps(sequence);
   summary.camera = describe_camera(sequence.calibration.camera, camera);
-  summary.stopped = found.images.size() + summary.unreadable.size() < sequence.frames.size();
+  summary.stopped = found.images.size() + summary.unreadable < sequence.frames.size();
   summary.threads = executor.threads();
   summary.total_seconds = watch.seconds();
-  write_file(folder.work() / "trajectory.txt", format_trajectory(found.images, summary));
+  write_file(folder.work() / "trajectory.txt", format_found_trajectory(found.images, summary));
   write_file(folder.work() / "localization.csv", format_localization_csv(found.images, summary));
-  const std::string json = format_localize_json(found.images, summary);
+  summary.peak_memory_mb = peak_memory_mb();
+  const std::string json = format_localization_json(found.images, summary);
   write_file(folder.work() / "run.json", json);
   folder.commit();
-  arguments.common.json ? fmt::print("{}", json) : print_localize_summary(found.images, summary);
+  fmt::print("{}", arguments.common.json ? json : format_localization_text(found.images, summary));
   return exit_code(found.images);
 }
 

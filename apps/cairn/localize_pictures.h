@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "cairn/localize/localize_sequence.h"
 #include "cairn/sequence/sequence.h"
-#include "localize_outputs.h"
 
 namespace cairn::app {
 

@@ -6,12 +6,12 @@
 #include "cairn/map/colmap_export.h"
 #include "cairn/map/colmap_sources.h"
 #include "cairn/report/landmark_ply.h"
+#include "cairn/report/survey_report.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/survey.h"
 #include "commands.h"
 #include "common.h"
-#include "map_outputs.h"
 #include "map_parameters.h"
 #include "map_pictures.h"
 #include "parameter_arguments.h"
@@ -56,7 +56,7 @@ MapParameters gather_parameters(const MapArguments& arguments) {
   return parameters;
 }
 
-int report_stop(const SurveyResult& result, const MapSummary& summary) {
+int report_stop(const SurveyResult& result, const SurveySummary& summary) {
   fmt::print(stderr, "cairn map: stopped after {} of {} frames. The same command goes on from there.\n",
              result.counts.frames, summary.sequence_frames);
   return 1;
@@ -99,10 +99,15 @@ int run_map(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   const SurveyResult result =
       run_survey({sequence, poses, settings}, parameters.survey, folder.work(), executor, *progress);
-  MapSummary summary{arguments.output,   poses.format,    static_cast<std::int64_t>(sequence.frames.size()),
-                     executor.threads(), watch.seconds(), {}};
+  SurveySummary summary{arguments.output,
+                        poses.format,
+                        static_cast<std::int64_t>(sequence.frames.size()),
+                        executor.threads(),
+                        watch.seconds(),
+                        {},
+                        0};
   if (result.stopped) return report_stop(result, summary);
-  write_file(folder.work() / "report.json", format_map_report(result));
+  write_file(folder.work() / "report.json", format_survey_report(result));
   write_file(folder.work() / "config.yaml", settings);
   write_landmark_ply(folder.work(), folder.work() / "landmarks.ply");
   write_map_picture(folder.work(), folder.work());
@@ -112,8 +117,9 @@ int run_map(int argc, char** argv) {
   }
   folder.commit();
   summary.total_seconds = watch.seconds();
-  arguments.common.json ? fmt::print("{}", format_map_json(result, summary))
-                        : print_map_summary(result, summary);
+  summary.peak_memory_mb = peak_memory_mb();
+  fmt::print("{}", arguments.common.json ? format_survey_json(result, summary)
+                                         : format_survey_text(result, summary));
   return report_quality(result, parameters.survey);
 }
 

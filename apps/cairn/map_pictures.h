@@ -4,12 +4,9 @@
 #include <filesystem>
 #include <vector>
 
-#include "localize_outputs.h"
+#include "cairn/localize/localize_sequence.h"
 
 namespace cairn::app {
-
-/// The name of the picture from above in the folder of a map or a run.
-constexpr const char* kMapPicture = "landmarks.png";
 
 /// Writes the picture of the map in `map_folder` to `folder`/landmarks.png.
 void write_map_picture(const std::filesystem::path& map_folder, const std::filesystem::path& folder);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cairn/core/file.h"
 #include "cairn/features/matching.h"
 #include "cairn/image/codec.h"
 #include "cairn/report/feature_picture.h"
+#include "cairn/report/features_report.h"
 #include "commands.h"
 #include "feature_arguments.h"
 
@@ -43,35 +45,6 @@ void declare(CommandLine& app, MatchArguments& arguments) {
   app.footer("Example: cairn match a.png b.png --method sift --ratio 0.8 --draw matches.png");
 }
 
-std::string format_csv(const TimedFeatures& a, const TimedFeatures& b, const std::vector<Match>& matches) {
-  std::string csv = "u1,v1,u2,v2,distance\n";
-  for (const Match& match : matches) {
-    const Keypoint& from = a.features.keypoints[static_cast<std::size_t>(match.query)];
-    const Keypoint& to = b.features.keypoints[static_cast<std::size_t>(match.train)];
-    csv += fmt::format("{},{},{},{},{}\n", from.u, from.v, to.u, to.v, match.distance);
-  }
-  return csv;
-}
-
-void print_result(const MatchArguments& arguments, const TimedFeatures& a, const TimedFeatures& b,
-                  std::size_t matches, double time_ms) {
-  if (arguments.common.json) {
-    const nlohmann::ordered_json json = {
-        {"method", arguments.method},
-        {"images",
-         {{{"image", a.path}, {"keypoints", a.features.keypoints.size()}, {"time_ms", a.time_ms}},
-          {{"image", b.path}, {"keypoints", b.features.keypoints.size()}, {"time_ms", b.time_ms}}}},
-        {"matches", matches},
-        {"matching_time_ms", time_ms}};
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  for (const TimedFeatures* image : {&a, &b})
-    fmt::print("{}  {} keypoints  {:.3f} ms\n", image->path, image->features.keypoints.size(),
-               image->time_ms);
-  fmt::print("{} matches  {:.3f} ms\n", matches, time_ms);
-}
-
 }  // namespace
 
 int run_match(int argc, char** argv) {
@@ -94,11 +67,12 @@ int run_match(int argc, char** argv) {
   if (!arguments.draw.empty())
     write_png(arguments.draw,
               draw_matches(a.image, a.features.keypoints, b.image, b.features.keypoints, matches));
+  const MatchReport report{arguments.method, a, b, matches, time_ms};
   if (output) {
-    output->write(format_csv(a, b, matches));
+    output->write(format_matches_csv(report));
     output->commit();
   }
-  print_result(arguments, a, b, matches.size(), time_ms);
+  fmt::print("{}", arguments.common.json ? format_match_json(report) : format_match_text(report));
   return 0;
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/dense/cloud_file.h"
 #include "cairn/dense/octree_file.h"
+#include "cairn/report/fusion_report.h"
 #include "commands.h"
 #include "fusion.h"
 #include "recording_checks.h"
@@ -46,70 +47,33 @@ void declare(CommandLine& app, OctreeArguments& arguments) {
       "          cairn octree room.ply -o room.bt --resolution 0.1");
 }
 
-struct Result {
-  std::optional<FusionReport> fusion;  // not from a cloud file
-  std::size_t points = 0;              // of a cloud file
-  OctreeContents contents = OctreeContents::binary;
-  OctreeFileReport file;
-  OccupancyGrid::Counts counts;
-  double seconds = 0;
-};
-
-void print_text(const OctreeArguments& arguments, const Result& result) {
-  if (result.fusion) {
-    print_report(*result.fusion);
-  } else {
-    fmt::print("points       {}\n", result.points);
-  }
-  fmt::print("voxels       {} occupied, {} free, of {} m\n", result.counts.occupied, result.counts.free,
-             arguments.options.resolution);
-  fmt::print("file         {}, {}, {} nodes: {}\n", arguments.output, format_bytes(result.file.bytes),
-             result.file.nodes, to_string(result.contents));
-  fmt::print("seconds      {:.2f}\n", result.seconds);
-}
-
-void print_json(const OctreeArguments& arguments, const Result& result) {
-  nlohmann::ordered_json json = {{"output", arguments.output}};
-  if (result.fusion) {
-    json["frames"] = to_json(*result.fusion);
-  } else {
-    json["points"] = result.points;
-  }
-  json["resolution_m"] = arguments.options.resolution;
-  json["occupied"] = result.counts.occupied;
-  json["free"] = result.counts.free;
-  json["nodes"] = result.file.nodes;
-  json["contents"] = to_string(result.contents);
-  json["bytes"] = result.file.bytes;
-  json["seconds"] = result.seconds;
-  fmt::print("{}\n", json.dump(2));
-}
-
-void fuse_input(const OctreeArguments& arguments, OccupancyGrid& grid, Result& result) {
+void fuse_input(const OctreeArguments& arguments, OccupancyGrid& grid, OctreeReport& report) {
   if (is_cloud_file(arguments.sequence.folder)) {
     const Cloud cloud = read_cloud(arguments.sequence.folder);
     grid.add_cloud(cloud);
-    result.points = cloud.points.size();
+    report.points = cloud.points.size();
     return;
   }
   const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
   const auto progress = make_progress(arguments.common);
   check_recording(posed.sequence, *progress);
   const Executor executor(arguments.common.thread_count());
-  result.fusion =
+  report.fusion =
       fuse_sequence(posed.sequence, posed.world_from_camera, {.occupancy = &grid}, executor, *progress);
 }
 
-Result build_octree(const OctreeArguments& arguments) {
+OctreeReport build_octree(const OctreeArguments& arguments) {
   const Stopwatch watch;
   OccupancyGrid grid(arguments.options);
-  Result result;
-  fuse_input(arguments, grid, result);
-  result.contents = octree_contents(arguments.output, grid.colored());
-  result.file = write_octree(arguments.output, grid, result.contents);
-  result.counts = grid.counts();
-  result.seconds = watch.seconds();
-  return result;
+  OctreeReport report;
+  report.output = arguments.output;
+  report.resolution_m = arguments.options.resolution;
+  fuse_input(arguments, grid, report);
+  report.contents = octree_contents(arguments.output, grid.colored());
+  report.file = write_octree(arguments.output, grid, report.contents);
+  report.counts = grid.counts();
+  report.seconds = watch.seconds();
+  return report;
 }
 
 void require_no_sequence_options(const OctreeArguments& arguments) {
@@ -136,8 +100,8 @@ int run_octree(int argc, char** argv) {
   if (is_cloud_file(arguments.sequence.folder)) require_no_sequence_options(arguments);
   const AtomicFile probe(arguments.output);  // so is a path that cannot be written
 
-  const Result result = build_octree(arguments);
-  arguments.common.json ? print_json(arguments, result) : print_text(arguments, result);
+  const OctreeReport report = build_octree(arguments);
+  fmt::print("{}", arguments.common.json ? format_octree_json(report) : format_octree_text(report));
   return 0;
 }
 

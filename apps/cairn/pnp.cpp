@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
+#include "cairn/report/pnp_report.h"
 #include "camera_argument.h"
 #include "commands.h"
 #include "named_values.h"
@@ -118,15 +118,6 @@ PnpInput read_input(const PnpArguments& arguments) {
   return input;
 }
 
-/// What came out.
-struct PnpReport {
-  std::size_t points = 0;
-  std::optional<PnpResult> ransac;  ///< not with --start identity
-  std::size_t used = 0;
-  PoseEstimate fit;
-  RansacReport judged;  ///< of the fit's pose, by all points; where the fit is ok
-};
-
 /// Least squares over all points from the identity, or over the inliers from RANSAC's pose.
 PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
   PnpReport report;
@@ -148,101 +139,6 @@ PnpReport estimate(const PnpInput& input, const PnpArguments& arguments) {
   return report;
 }
 
-/// Why there is no pose; empty where there is one.
-std::string failure_of(const PnpReport& report) {
-  if (report.ransac && !report.ransac->found()) return std::string(to_string(report.ransac->status));
-  if (report.fit.status != PoseStatus::ok) return std::string(to_string(report.fit.status));
-  if (!report.judged.found()) return std::string(to_string(report.judged.status));
-  return "";
-}
-
-/// Where steps are left, the pose so far is of use to who follows them; any other failure has none.
-bool has_pose(const PnpReport& report) {
-  return failure_of(report).empty() || report.fit.status == PoseStatus::not_converged;
-}
-
-void print_trace(const PoseEstimate& fit) {
-  fmt::print("{:>9} {:>18} {:>12} {:>9}\n", "iteration", "cost", "step", "lambda");
-  for (std::size_t i = 0; i < fit.trace.size(); ++i) {
-    const PoseIteration& row = fit.trace[i];
-    fmt::print("{:>9} {:>18.10g} {:>12.4g} {:>9.2g}{}\n", i, row.cost, row.step, row.lambda,
-               row.accepted ? "" : "  rejected");
-  }
-}
-
-void print_pose(const PnpArguments& arguments, const PoseEstimate& fit) {
-  const Eigen::Matrix3d R = fit.camera_from_world.matrix3();
-  for (int i = 0; i < 3; ++i)
-    fmt::print("{:<13} {:12.9f} {:12.9f} {:12.9f} {:14.9f}\n",
-               i == 0   ? "world to"
-               : i == 1 ? "camera"
-                        : "",
-               R(i, 0), R(i, 1), R(i, 2), fit.camera_from_world.translation[i]);
-  if (fit.status != PoseStatus::ok) return;
-  const Vector6d deviation = fit.covariance.diagonal().cwiseSqrt();
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
-  fmt::print("std rotation  {:.3g} {:.3g} {:.3g} deg, by the noise of pixels alone\n",
-             kDegrees * deviation[0], kDegrees * deviation[1], kDegrees * deviation[2]);
-  fmt::print("std move      {:.3g} {:.3g} {:.3g} m, likewise: the points count as exact\n", deviation[3],
-             deviation[4], deviation[5]);
-  fmt::print("variance      {:.4g} times what sigma {} px says; multiply the stds by its root\n",
-             fit.variance_factor, arguments.sigma_px);
-}
-
-void print_report(const PnpArguments& arguments, const PnpReport& report) {
-  if (report.ransac)
-    fmt::print("ransac        {} of {} points agree, {} samples, 10^{:.0f} false alarms expected\n",
-               report.ransac->inliers.size(), report.points, report.ransac->iterations,
-               report.ransac->log10_false_alarms);
-  const PoseEstimate& fit = report.fit;
-  if (arguments.trace) print_trace(fit);
-  fmt::print("points        {} used of {}\n", report.used, report.points);
-  fmt::print("iterations    {}, {}\n", fit.iterations(), to_string(fit.status));
-  fmt::print("cost          {:.10g}  half the sum of squares over sigma^2{}\n", fit.cost,
-             arguments.kernel == "none" ? "" : ", with the kernel");
-  fmt::print("residual      {:.6g} px RMS\n", report.fit.rms_px);
-  if (!report.ransac && fit.status == PoseStatus::ok)
-    fmt::print("agreement     {} of {} points within the 95 % limit of sigma\n", report.judged.inliers.size(),
-               report.points);
-  if (has_pose(report)) print_pose(arguments, fit);
-}
-
-nlohmann::ordered_json rows_of(const Eigen::MatrixXd& matrix) {
-  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    nlohmann::ordered_json row = nlohmann::ordered_json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-nlohmann::ordered_json to_json(const PnpReport& report) {
-  const std::string failure = failure_of(report);
-  nlohmann::ordered_json json = {{"status", failure.empty() ? "ok" : failure}, {"points", report.points}};
-  if (report.ransac) {
-    json["inliers"] = report.ransac->inliers;
-    json["samples"] = report.ransac->iterations;
-    if (!report.ransac->found()) return json;
-    json["log10_false_alarms"] = report.ransac->log10_false_alarms;
-  }
-  if (report.fit.trace.empty()) return json;
-  json["iterations"] = report.fit.iterations();
-  json["cost"] = report.fit.cost;
-  json["rms_px"] = report.fit.rms_px;
-  for (const PoseIteration& row : report.fit.trace)
-    json["trace"].push_back(
-        {{"cost", row.cost}, {"step", row.step}, {"lambda", row.lambda}, {"accepted", row.accepted}});
-  if (!has_pose(report)) return json;
-  Eigen::Matrix<double, 3, 4> camera_from_world;
-  camera_from_world << report.fit.camera_from_world.matrix3(), report.fit.camera_from_world.translation;
-  json["camera_from_world"] = rows_of(camera_from_world);
-  if (report.fit.status != PoseStatus::ok) return json;
-  json["covariance"] = rows_of(report.fit.covariance);
-  json["variance_factor"] = report.fit.variance_factor;
-  return json;
-}
-
 }  // namespace
 
 int run_pnp(int argc, char** argv) {
@@ -255,11 +151,8 @@ int run_pnp(int argc, char** argv) {
   arguments.ransac.seed = arguments.common.seed;
 
   const PnpReport report = estimate(read_input(arguments), arguments);
-  if (arguments.common.json) {
-    fmt::print("{}\n", to_json(report).dump(2));
-  } else if (!report.fit.trace.empty()) {
-    print_report(arguments, report);
-  }
+  const PnpTextOptions told{arguments.trace, arguments.fit.kernel != RobustKernel::none, arguments.sigma_px};
+  fmt::print("{}", arguments.common.json ? format_pnp_json(report) : format_pnp_text(report, told));
   const std::string failure = failure_of(report);
   if (failure.empty()) return 0;
   fmt::print(stderr, "cairn: no pose from {} points: {}.\n", report.points, failure);

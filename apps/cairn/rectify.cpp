@@ -1,36 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "cairn/core/file.h"
+#include "cairn/report/recording_report.h"
 #include "cairn/sequence/write_kitti.h"
 #include "commands.h"
 #include "common.h"
 #include "recording_checks.h"
 
 namespace cairn::app {
-namespace {
-
-void print_report(const RectifiedReport& report, const std::string& folder, bool as_json) {
-  if (as_json) {
-    const nlohmann::ordered_json json = {{"frames", report.frames},
-                                         {"unreadable", report.unreadable},
-                                         {"poses", report.has_poses},
-                                         {"stopped", report.stopped},
-                                         {"folder", folder}};
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  fmt::print("frames       {}{}\n", report.frames, report.stopped ? ", stopped before the end" : "");
-  if (report.unreadable > 0) fmt::print("unreadable   {} frames, skipped\n", report.unreadable);
-  fmt::print("poses        {}\n",
-             report.has_poses ? "of every frame" : "none: not every frame has a true one");
-  fmt::print("written to   {}\n", folder);
-}
-
-}  // namespace
-
 int run_rectify(int argc, char** argv) {
   CommandLine app("The rectified pairs of a stereo sequence, in KITTI layout.", "rectify");
   CommonOptions common;
@@ -52,7 +32,9 @@ int run_rectify(int argc, char** argv) {
   const RectifiedReport report =
       write_rectified(sequence, folder.work(), Executor(common.thread_count()), *progress);
   folder.commit();
-  print_report(report, folder.target().string(), common.json);
+  const std::string target = folder.target().string();
+  fmt::print("{}",
+             common.json ? format_rectified_json(report, target) : format_rectified_text(report, target));
   return 0;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <string>
 
 #include "cairn/core/file.h"
+#include "cairn/report/recording_report.h"
 #include "cairn/sequence/write_kitti.h"
 #include "cairn/sequence/write_tum.h"
 #include "commands.h"
@@ -49,29 +50,10 @@ void add_noise_option(CommandLine& app, const std::string& sensor, const std::st
       .type_name("NAME");
 }
 
-nlohmann::ordered_json to_json(const SimulationReport& report, const Arguments& arguments) {
-  nlohmann::ordered_json json;
-  json["frames"] = report.frames;
-  json["duration_s"] = report.duration;
-  json["path_m"] = report.length;
-  json["seed"] = arguments.common.seed;
-  json["stopped"] = report.stopped;
-  return json;
-}
-
-void print_report(const Arguments& arguments, const std::string& folder, const SimulationReport& report,
+void print_report(const Arguments& arguments, const SimulationReport& report, const std::string& folder,
                   const std::string& next) {
-  if (arguments.common.json) {
-    auto json = to_json(report, arguments);
-    json["folder"] = folder;
-    fmt::print("{}\n", json.dump(2));
-    return;
-  }
-  fmt::print("frames       {} over {:.2f} s{}\n", report.frames, report.duration,
-             report.stopped ? ", stopped before the end" : "");
-  fmt::print("path         {:.3f} m\n", report.length);
-  fmt::print("written to   {}\n", folder);
-  fmt::print("next         {}\n", next);
+  const SimulationSummary summary{report, folder, arguments.common.seed, next};
+  fmt::print("{}", arguments.common.json ? format_simulation_json(summary) : format_simulation_text(summary));
 }
 
 void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
@@ -86,7 +68,7 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
       write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress);
   output.commit();
   const std::string folder = output.target().string();
-  print_report(arguments, folder, report, fmt::format("cairn slam {} -o run", folder));
+  print_report(arguments, report, folder, fmt::format("cairn slam {} -o run", folder));
 }
 
 void simulate_street(const Arguments& arguments, SimulateStreetOptions options) {
@@ -101,7 +83,7 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
                                               arguments.depth_truth, executor, *progress);
   output.commit();
   const std::string folder = output.target().string();
-  print_report(arguments, folder, report, fmt::format("cairn info {}", folder));
+  print_report(arguments, report, folder, fmt::format("cairn info {}", folder));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "cairn/core/file.h"
 #include "cairn/map/map_file.h"
+#include "cairn/report/slam_report.h"
 #include "commands.h"
 #include "common.h"
 #include "fusion.h"
@@ -116,6 +117,7 @@ int run_slam(int argc, char** argv) {
   const SlamResult result = cairn::run_slam(sequence, parameters.slam, executor, *progress, std::move(start));
   if (result.map.keyframes().empty()) return report_nothing_tracked(result);
   SlamSummary summary;
+  summary.folder = arguments.output;
   summary.threads = executor.threads();
   summary.seed = parameters.slam.seed;
   summary.odometry = parameters.slam.odometry;
@@ -123,11 +125,11 @@ int run_slam(int argc, char** argv) {
   write_dense_files(folder.work(), sequence, result, parameters, wanted, executor, *progress, summary);
   add_accuracy(sequence, result, summary);
   summary.total_seconds = watch.seconds();
-  const std::string json = format_run_json(sequence, result, summary);
+  summary.peak_memory_mb = peak_memory_mb();
+  const std::string json = format_slam_json(sequence, result, summary);
   write_file(folder.work() / "run.json", json);
   folder.commit();
-  arguments.common.json ? fmt::print("{}", json)
-                        : print_summary(sequence, result, summary, arguments.output, wanted);
+  fmt::print("{}", arguments.common.json ? json : format_slam_text(sequence, result, summary));
   return warn_if_never_followed(result);
 }
 

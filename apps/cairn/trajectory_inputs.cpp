@@ -4,16 +4,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "cairn/core/text.h"
 
 namespace cairn::app {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string time_range(const Trajectory& trajectory) {
   return fmt::format("{} to {} s, {} poses", format_stamp(trajectory.front().stamp_ns),
@@ -32,38 +28,6 @@ std::string explain_no_pairs(const Trajectory& estimate, const Trajectory& refer
       max_gap_s, time_range(estimate), time_range(reference), format_seconds(start_offset_ns));
 }
 
-std::string_view explain(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::too_few_points:
-      return "fewer than 3 pairs of poses do not determine it";
-    case AlignmentStatus::one_place:
-      return "all poses of one trajectory are at one place";
-    case AlignmentStatus::one_line:
-      return "all poses of one trajectory lie on one line, so the turn about it is free";
-    case AlignmentStatus::mirrored:
-      return "the trajectories are mirror images, and several rotations fit equally well";
-    case AlignmentStatus::ok:
-      break;
-  }
-  return "";
-}
-
-std::string_view word_for(AlignmentStatus status) {
-  switch (status) {
-    case AlignmentStatus::too_few_points:
-      return "too_few_points";
-    case AlignmentStatus::one_place:
-      return "one_place";
-    case AlignmentStatus::one_line:
-      return "one_line";
-    case AlignmentStatus::mirrored:
-      return "mirrored";
-    case AlignmentStatus::ok:
-      break;
-  }
-  return "ok";
-}
-
 void warn_of_free_turn(std::string_view name, double turn_uncertainty) {
   constexpr double kFreeDeg = 10;
   const double degrees = 180.0 / std::numbers::pi * turn_uncertainty;
@@ -73,18 +37,6 @@ void warn_of_free_turn(std::string_view name, double turn_uncertainty) {
              "and with it\n"
              "  every rotation after the alignment, is good to about {:.0f} deg only.\n",
              name, degrees);
-}
-
-std::string short_name(const std::string& path) {
-  const fs::path whole = fs::path(path).lexically_normal();
-  const auto named = whole.has_filename() ? whole : whole.parent_path();
-  return (named.parent_path().filename() / named.filename()).string();
-}
-
-void add_similarity(const Similarity3& map, nlohmann::ordered_json& json) {
-  json["scale"] = map.scale;
-  json["rotation_xyzw"] = {map.rotation.x(), map.rotation.y(), map.rotation.z(), map.rotation.w()};
-  json["translation_m"] = {map.translation.x(), map.translation.y(), map.translation.z()};
 }
 
 }  // namespace cairn::app

@@ -14,9 +14,10 @@
 #include "cairn/frontend/depth_scale.h"
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
+#include "cairn/report/two_view_report.h"
 #include "camera_argument.h"
 #include "commands.h"
-#include "two_view_output.h"
+#include "feature_arguments.h"
 
 namespace cairn::app {
 namespace {
@@ -153,7 +154,8 @@ int decompose_given(const TwoViewArguments& arguments) {
   if (!(essential.norm() > 0))
     throw InputError({"--essential", 0, "a matrix that is not zero", "zeros", "Give E = t^R."});
   const EssentialDecomposition parts = decompose_essential(essential);
-  arguments.common.json ? print_decomposition_json(essential, parts) : print_decomposition(essential, parts);
+  fmt::print("{}", arguments.common.json ? format_decomposition_json(essential, parts)
+                                         : format_decomposition_text(essential, parts));
   constexpr double kNoEssentialMatrix = 0.01;
   const double distance = relative_distance(essential, parts);
   if (distance <= kNoEssentialMatrix) return 0;
@@ -183,7 +185,7 @@ int reconstruct(TwoViewArguments& arguments) {
   report.result =
       reconstruct_two_views(pixels.rays_a, pixels.rays_b, arguments.sigma_px / focal_px, arguments.options);
   if (!arguments.depth.empty()) report.scale = scale_of(arguments, calibration, report);
-  arguments.common.json ? print_two_view_json(report) : print_two_view(report);
+  fmt::print("{}", arguments.common.json ? format_two_view_json(report) : format_two_view_text(report));
   if (report.result.status != TwoViewStatus::ok) {
     fmt::print(stderr, "cairn: no motion between {} and {}: {}.\n", arguments.first, arguments.second,
                to_string(report.result.status));
@@ -192,7 +194,7 @@ int reconstruct(TwoViewArguments& arguments) {
   if (is_ply(arguments.output)) {
     write_ply(arguments.output, cloud_of(report));
   } else if (!arguments.output.empty()) {
-    write_file(arguments.output, format_points(report));
+    write_file(arguments.output, format_points_csv(report));
   }
   return 0;
 }

@@ -10,6 +10,9 @@
 
 namespace cairn {
 
+/// Names the picture from above in the folder of a map or a run.
+constexpr const char* kLandmarkPicture = "landmarks.png";
+
 /// Draws the map in `map_folder` (or the run folder that has it in its map/) from above: its landmarks in the
 /// colours of their standard deviations, with the scale of these (std_rgb), and the path of its keyframes
 /// with start and end; a bar of a round length in metres, and which directions of the world are right and up

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/slam_figures.h"
+
+#include <algorithm>
+
+namespace cairn {
+
+FrameCounts count_frames(const SlamResult& result) {
+  FrameCounts counts;
+  std::vector<int> inliers;
+  const std::int32_t main_part = result.main_part();
+  for (const FrameTrack& track : result.frames) {
+    ++counts.frames;
+    counts.relocalized += track.relocalized ? 1 : 0;
+    const bool in_main = track.tracked() && result.map.part_of(*track.reference) == main_part;
+    counts.tracked += in_main ? 1 : 0;
+    counts.elsewhere += track.tracked() && !in_main ? 1 : 0;
+    counts.too_far += track.decision == KeyframeDecision::too_far ? 1 : 0;
+    counts.not_matched += track.decision == KeyframeDecision::not_matched ? 1 : 0;
+    if (track.tracked()) inliers.push_back(track.inliers);
+  }
+  if (inliers.empty()) return counts;
+  const auto middle = inliers.begin() + static_cast<std::ptrdiff_t>(inliers.size() / 2);
+  std::nth_element(inliers.begin(), middle, inliers.end());
+  counts.median_inliers = *middle;
+  return counts;
+}
+
+double share_percent(std::int64_t part, std::int64_t whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+}
+
+std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times) {
+  return {{"decode", &times.decode},   {"features", &times.features}, {"tracking", &times.tracking},
+          {"mapping", &times.mapping}, {"loops", &times.loops},       {"window", &times.window},
+          {"global", &times.global}};
+}
+
+bool is_start_found(const SlamResult& result) {
+  return result.start_keyframes > 0 && !result.trajectory().empty() &&
+         result.map.part_of({0}) == result.main_part();
+}
+
+}  // namespace cairn

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/slam_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cairn/core/text.h"
+#include "cairn/report/json_pieces.h"
+#include "cairn/report/slam_figures.h"
+
+namespace cairn {
+namespace {
+
+Json to_json(const TimeSummary& time) {
+  return {{"total_s", time.total},
+          {"median_ms", 1e3 * time.median},
+          {"percentile_95_ms", 1e3 * time.percentile_95}};
+}
+
+Json frames_json(const Sequence& sequence, const SlamResult& result, const FrameCounts& counts) {
+  return {
+      {"total", sequence.frames.size()},   {"processed", counts.frames},
+      {"tracked", counts.tracked},         {"tracked_percent", share_percent(counts.tracked, counts.frames)},
+      {"too_far", counts.too_far},         {"not_matched", counts.not_matched},
+      {"relocalized", counts.relocalized}, {"elsewhere", counts.elsewhere},
+      {"unreadable", result.unreadable}};
+}
+
+Json start_json(const SlamResult& result) {
+  if (result.start_keyframes == 0) return nullptr;
+  return is_start_found(result) ? "recognised" : "not recognised";
+}
+
+Json loops_json(const LoopReport& loops) {
+  return {{"tried", loops.tried},
+          {"verified", loops.verified},
+          {"rejected", loops.rejected},
+          {"unconfirmed", loops.unconfirmed},
+          {"joined", loops.joined},
+          {"closed", loops.closed},
+          {"parts_joined", loops.parts_joined}};
+}
+
+}  // namespace
+
+std::string format_slam_json(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary) {
+  const FrameCounts counts = count_frames(result);
+  Json json;
+  json["cairn"] = CAIRN_VERSION;
+  json["sequence"] = sequence.folder.string();
+  json["frames"] = frames_json(sequence, result, counts);
+  json["stopped"] = result.stopped;
+  json["median_inliers"] = counts.median_inliers;
+  json["keyframes"] = result.map.keyframe_ids().size();
+  json["start_map"] = start_json(result);
+  json["loops"] = loops_json(result.loops);
+  json["landmarks"] = result.map.landmark_ids().size();
+  json["graph_edges"] = result.graph_after.edges.size();
+  json["ate_rmse_m"] = json_of(summary.ate_m);
+  json["cloud_points"] = summary.cloud_points;
+  json["octree"] = {{"occupied", summary.occupied_voxels}, {"free", summary.free_voxels}};
+  json["seed"] = summary.seed;
+  json["odometry"] = summary.odometry;
+  json["threads"] = summary.threads;
+  json["seconds"] = {{"total", summary.total_seconds}, {"fusion", summary.fusion_seconds}};
+  for (const auto& [name, seconds] : stages(result.times))
+    json["stages"][name] = to_json(summarize(*seconds));
+  json["peak_memory_mb"] = summary.peak_memory_mb;
+  return format_document(json);
+}
+
+std::string format_frames_csv(const SlamResult& result) {
+  std::string text = "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n";
+  for (const FrameTrack& track : result.frames) {
+    const std::string part = track.reference ? fmt::format("{}", result.map.part_of(*track.reference)) : "";
+    const std::string reference = track.reference ? fmt::format("{}", track.reference->value) : "";
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
+                        to_string(track.decision), track.relocalized ? 1 : 0, part, reference, track.matches,
+                        track.inliers);
+  }
+  return text;
+}
+
+CameraPath main_path(const SlamResult& result) {
+  CameraPath path;
+  const std::int32_t part = result.main_part();
+  for (const FrameTrack& track : result.frames) {
+    if (!track.tracked() || result.map.part_of(*track.reference) != part) continue;
+    const Keyframe& reference = result.map[*track.reference];
+    const bool is_keyframe = track.frame == reference.observed.frame && !reference.erased;
+    if (is_keyframe) path.keyframes.push_back(path.world_from_camera.size());
+    path.world_from_camera.push_back(result.map.world_from_camera(reference.id) * track.reference_from_frame);
+  }
+  return path;
+}
+
+}  // namespace cairn

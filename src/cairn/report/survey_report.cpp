@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/survey_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cairn/report/json_pieces.h"
+#include "cairn/report/landmark_picture.h"
+#include "cairn/report/text_builder.h"
+
+namespace cairn {
+namespace {
+
+double ratio(std::int64_t a, std::int64_t b) {
+  return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
+}
+
+Json to_json(const PoseCheck& check) {
+  return {{"verdict", to_string(check.verdict)},
+          {"pairs", check.pairs},
+          {"rotation_by_images_deg", check.image_rotation_deg},
+          {"rotation_by_poses_deg", check.pose_rotation_deg},
+          {"motion_by_images_m", check.image_motion_m},
+          {"motion_by_poses_m", check.pose_motion_m},
+          {"motion_in_image_px", check.flow_px},
+          {"error_px", std::isfinite(check.error_px) ? Json(check.error_px) : Json()}};
+}
+
+Json to_json(const SurveyResult& result) {
+  const SurveyCounts& counts = result.counts;
+  Json json;
+  json["frames"] = {{"mapped", counts.frames},
+                    {"without_pose", counts.without_pose},
+                    {"standing", counts.standing},
+                    {"unreadable", counts.unreadable}};
+  json["features"] = {
+      {"found", counts.features}, {"with_depth", counts.measured}, {"matched_to_tracks", counts.matched}};
+  json["tracks"] = {
+      {"finished", counts.tracks}, {"too_short", counts.too_short}, {"contradictory", counts.contradictory}};
+  for (std::size_t i = 0; i < kCleaningRules; ++i)
+    json["cleaned"][std::string(to_string(static_cast<CleaningRule>(i)))] = counts.cleaned[i];
+  json["merged"] = counts.merged;
+  json["landmarks"] = counts.landmarks;
+  json["sightings"] = counts.sightings;
+  json["dropped_sightings"] = counts.dropped_sightings;
+  json["noise"] = {{"variance_factor", result.noise.scale}, {"degrees_of_freedom", result.noise.freedom}};
+  json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
+  json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},
+                         {"by_poses_rms_m", result.pose_std_rms_m},
+                         {"dominated_by_poses", counts.dominated_by_poses},
+                         {"stated_position_std_m", result.stated.position_m},
+                         {"stated_rotation_std_deg", result.stated.rotation_deg}};
+  json["pose_check"] = to_json(result.pose_check);
+  return json;
+}
+
+/// Returns how many landmarks fell to which rule, in the order of the rules; leaves out those to which none
+/// fell.
+std::string describe_cleaning(const SurveyCounts& counts) {
+  constexpr std::array<const char*, kCleaningRules> kWords = {
+      "seen in too few frames", "too uncertain", "residuals too large", "rays too parallel",
+      "depth out of range",     "too far away",  "too far aside",       "seen too obliquely"};
+  std::string text;
+  for (std::size_t i = 0; i < kCleaningRules; ++i) {
+    if (counts.cleaned[i] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts.cleaned[i], kWords[i]);
+  }
+  return text.empty() ? "none fell to a rule" : text;
+}
+
+void add_frames(const SurveyCounts& counts, const SurveySummary& summary, TextBuilder& text) {
+  text.add("frames       {} of {} mapped", counts.frames, summary.sequence_frames);
+  if (counts.without_pose > 0) text.add(", {} without pose", counts.without_pose);
+  if (counts.standing > 0) text.add(", {} without motion", counts.standing);
+  if (counts.unreadable > 0) text.add(", {} unreadable", counts.unreadable);
+  text.add("\n");
+}
+
+}  // namespace
+
+std::string format_survey_report(const SurveyResult& result) {
+  return format_document(to_json(result));
+}
+
+std::string format_survey_json(const SurveyResult& result, const SurveySummary& summary) {
+  Json json;
+  json["cairn"] = CAIRN_VERSION;
+  json["map"] = summary.folder;
+  json["poses"] = summary.poses_format;
+  json["stopped"] = result.stopped;
+  json["resumed_at"] = result.resumed_at;
+  json.update(to_json(result));
+  const SurveyTimes& times = result.times;
+  json["threads"] = summary.threads;
+  json["seconds"] = {{"total", summary.total_seconds}, {"decode", times.decode},
+                     {"features", times.features},     {"matching", times.matching},
+                     {"adjustment", times.adjustment}, {"merging", times.merging},
+                     {"writing", times.writing}};
+  json["peak_memory_mb"] = summary.peak_memory_mb;
+  return format_document(json);
+}
+
+std::string format_survey_text(const SurveyResult& result, const SurveySummary& summary) {
+  const SurveyCounts& counts = result.counts;
+  TextBuilder text;
+  add_frames(counts, summary, text);
+  if (result.resumed_at > 0) text.add("resumed      at frame {} of the sequence\n", result.resumed_at);
+  text.add("poses        {}", summary.poses_format);
+  if (result.moved_rms_m > 0)
+    text.add(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
+             100 * result.moved_rms_m, result.turned_rms_deg);
+  if (result.pose_check.verdict == PoseVerdict::contradiction)
+    text.add("\n             they contradict the images: {}", describe(result.pose_check));
+  text.add("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
+           ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
+           ratio(counts.matched, counts.frames));
+  text.add("tracks       {}, {} in too few frames, {} contradict themselves\n", counts.tracks,
+           counts.too_short, counts.contradictory);
+  text.add("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
+  text.add("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
+           ratio(counts.sightings, counts.landmarks));
+  const std::string by_poses = result.pose_std_rms_m > 0
+                                   ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
+                                   : "none stated of the poses";
+  text.add("deviations   {:.2g} m by what the images leave open, {} (RMS, worst direction)\n",
+           result.image_std_rms_m, by_poses);
+  text.add("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);
+  text.add("picture      {}/{}, the landmarks from above\n", summary.folder, kLandmarkPicture);
+  if (!summary.image_root.empty())
+    text.add("colmap       {}/colmap, with --image_path {}\n", summary.folder, summary.image_root);
+  text.add("time         {:.1f} s, {:.0f} ms a frame\n", summary.total_seconds,
+           1000 * summary.total_seconds / std::max(1.0, static_cast<double>(counts.frames)));
+  text.add("memory       {:.0f} MB at most\n", summary.peak_memory_mb);
+  return text.take();
+}
+
+}  // namespace cairn
