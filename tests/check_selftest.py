@@ -121,6 +121,8 @@ class Layers(Sample):
         self.expect("src/cairn/optimize/window.h", "#include <ceres/ceres.h>\n", "a public header may not include ceres")
 
     def test_tests_and_the_kit_may_include_the_kit(self):
+        self.write("src/cairn/map/CMakeLists.txt", "cairn_room(map\n  HEADERS map.h\n  KIT map\n  PRIVATE fmt::fmt)\n")
+        self.link("KIT map\n  PUBLIC cairn::map")
         self.write("src/cairn/testing/core/folder.h", "#include <gtest/gtest.h>\n")
         self.write("src/cairn/testing/map/world.cpp", '#include "cairn/map/map.h"\n#include "cairn/testing/core/folder.h"\n')
         self.write("src/cairn/map/map_test.cpp", '#include <gtest/gtest.h>\n#include "cairn/testing/map/world.h"\n')
@@ -132,13 +134,14 @@ class Layers(Sample):
     def test_refuses_the_kit_in_the_program(self):
         self.expect("apps/cairn/main.cpp", '#include "cairn/testing/map/world.h"\n', "main.cpp:1: only tests may include")
 
-    def test_refuses_a_part_of_the_kit_for_rooms_further_down(self):
-        self.expect("src/cairn/map/map_test.cpp", '#include "cairn/testing/optimize/scene.h"\n',
-                    "room 'map' may not include 'optimize'")
+    def test_refuses_a_part_of_the_kit_that_is_not_named(self):
+        self.write("src/cairn/map/CMakeLists.txt", "cairn_room(map\n  HEADERS map.h\n  KIT core\n  PRIVATE fmt::fmt)\n")
+        self.expect("src/cairn/map/map_test.cpp", '#include "cairn/testing/map/world.h"\n',
+                    "tests of 'map' may not include \"cairn/testing/map/world.h\"")
 
     def test_refuses_a_part_of_the_kit_that_reaches_further_down(self):
         self.expect("src/cairn/testing/map/world.cpp", '#include "cairn/optimize/window.h"\n',
-                    "room 'map' may not include 'optimize'")
+                    "the kit of 'map' may not include")
 
     def test_refuses_a_heavy_library_in_a_header_of_the_kit(self):
         self.expect("src/cairn/testing/optimize/scene.h", "#include <ceres/ceres.h>\n", "a public header may not include ceres")
