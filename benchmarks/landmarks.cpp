@@ -18,7 +18,7 @@ using testkit::LandmarkScene;
 using testkit::LandmarkSceneOptions;
 using testkit::make_landmark_scene;
 
-/// 11.5 sightings each, half a pixel of noise; nothing is dropped, so that all solve one problem.
+/// 11.5 observations each, half a pixel of noise; nothing is dropped, so that all solve one problem.
 const LandmarkSceneOptions kStreet{.landmarks = 1000, .shortest_track = 3, .longest_track = 20};
 constexpr LandmarkFitOptions kKeepAll{.max_error = 1e3};
 /// The peers' tolerances: the loosest powers of ten with which they come to a millionth of a metre.
@@ -44,7 +44,7 @@ std::vector<Projection> projections_of(const LandmarkScene& scene) {
 }
 
 /// The peers' initial value: where the last and nearest camera saw the landmark, by its disparity.
-Eigen::Vector3d start_of(const LandmarkScene& scene, const std::vector<LandmarkSighting>& track) {
+Eigen::Vector3d start_of(const LandmarkScene& scene, const std::vector<CameraObservation>& track) {
   const auto& [camera, seen] = track.back();
   return scene.cameras[static_cast<std::size_t>(camera)].inverse() *
          scene.rig.point_at(seen.u, seen.v, scene.rig.depth(seen.d));
@@ -84,7 +84,7 @@ class CeresCost : public ceres::SizedCostFunction<3, 3> {
 };
 
 Solution solve_by_ceres(const LandmarkScene& scene, const std::vector<Projection>& cameras,
-                        const std::vector<LandmarkSighting>& track) {
+                        const std::vector<CameraObservation>& track) {
   Solution solution{start_of(scene, track), {}};
   double* point = solution.point_in_world.data();
   ceres::Problem problem;
@@ -108,7 +108,7 @@ Solution solve_by_ceres(const LandmarkScene& scene, const std::vector<Projection
 /// Residuals of a whole track, as TinySolverAutoDiffFunction wants them.
 struct TinyResiduals {
   const std::vector<Projection>& cameras;
-  const std::vector<LandmarkSighting>& track;
+  const std::vector<CameraObservation>& track;
 
   [[nodiscard]] int NumResiduals() const {  // NOLINT(readability-identifier-naming): Ceres' name
     return 3 * static_cast<int>(track.size());
@@ -139,7 +139,7 @@ class TinyPeer {
   }
 
   Solution solve(const LandmarkScene& scene, const std::vector<Projection>& cameras,
-                 const std::vector<LandmarkSighting>& track) {
+                 const std::vector<CameraObservation>& track) {
     const TinyResiduals residuals{cameras, track};
     const TinyFunction function(residuals);
     Solution solution{start_of(scene, track), {}};

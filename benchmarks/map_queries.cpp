@@ -29,7 +29,7 @@ class LazyMap {
 
   void open() {
     write();
-    const MapView map(folder_);
+    const StoredMap map(folder_);
   }
 
   /// An image after the other, again and again.
@@ -55,7 +55,7 @@ class LazyMap {
 
   void open_for_queries() {
     constexpr std::uint64_t kImages = 60;
-    map_ = std::make_unique<MapView>(folder_);
+    map_ = std::make_unique<StoredMap>(folder_);
     localizer_.emplace(*map_, testkit::street_query_camera(), LocalizeOptions());
     for (std::uint64_t i = 0; i < kImages; ++i) {
       const double x = 5 + (length_ - 20) * static_cast<double>(i) / static_cast<double>(kImages);
@@ -66,7 +66,7 @@ class LazyMap {
   double length_;  // metres of street
   fs::path folder_;
   std::optional<testkit::StreetWorld> world_;
-  std::unique_ptr<MapView> map_;
+  std::unique_ptr<StoredMap> map_;
   std::optional<Localizer> localizer_;
   std::vector<testkit::StreetWorld::View> images_;
   std::size_t next_ = 0;

@@ -99,7 +99,7 @@ int CommonOptions::thread_count() const {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-void add_common_options(CommandLine& app, CommonOptions& options, const Offers& offers) {
+void add_common_options(CommandLine& app, CommonOptions& options, const CommonOptionSet& offers) {
   if (offers.config) {
     app.add_option("--config", options.config, "YAML or key=value file with settings").type_name("FILE");
     app.add_option("--set", options.settings, "one setting, overrides --config; may be repeated")

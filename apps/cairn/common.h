@@ -26,11 +26,11 @@ struct CommonOptions {
 };
 
 /// Which of the common options a subcommand really has: an option that would do nothing is not offered.
-struct Offers {
+struct CommonOptionSet {
   bool config = false, threads = false, seed = false, json = true, quiet = true;
 };
 
-void add_common_options(CommandLine& app, CommonOptions& options, const Offers& offers);
+void add_common_options(CommandLine& app, CommonOptions& options, const CommonOptionSet& offers);
 /// --camera, --frames, --without for whatever reads a sequence.
 struct SequenceArguments {
   std::string folder, camera, frames, without;

@@ -5,8 +5,8 @@
 #include <exception>
 
 #include "cairn/core/error.h"
-#include "cairn/map/map_figures.h"
 #include "cairn/map/map_file.h"
+#include "cairn/map/map_statistics.h"
 #include "cairn/report/map_report.h"
 #include "cairn/report/sequence_report.h"
 #include "cairn/sequence/skipped_frames.h"
@@ -59,7 +59,7 @@ int run_info(int argc, char** argv) {
   if (const auto code = app.parse(argc, argv)) return *code;
   if (const auto map = find_map_folder(arguments.folder)) {
     require_no_choice(app);
-    const MapFigures figures = read_map_figures(*map);
+    const MapStatistics figures = read_map_statistics(*map);
     fmt::print("{}", common.json ? format_map_json(*map, figures) : format_map_text(*map, figures));
     return 0;
   }

@@ -4,9 +4,9 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/frontend.h"
+#include "cairn/frontend/frame_observer.h"
 #include "cairn/localize/localize_sequence.h"
-#include "cairn/map/map_view.h"
+#include "cairn/map/stored_map.h"
 #include "cairn/report/localization_report.h"
 #include "commands.h"
 #include "common.h"
@@ -101,7 +101,7 @@ int run_localize(int argc, char** argv) {
 
   Stopwatch watch;
   LocalizationSummary summary{arguments.map, arguments.sequence.folder, arguments.output, {}, {}};
-  const MapView map(arguments.map);
+  const StoredMap map(arguments.map);
   summary.open_seconds = watch.seconds();
   const LocalizeParameters parameters = gather_parameters(arguments, map.info());
   const Sequence sequence =
@@ -114,12 +114,12 @@ int run_localize(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   Executor::Task check = executor.start([&] { map.check(); });  // all of it, beside
 
-  const Frontend frontend(sequence,
-                          observer_options_for(map.info(), parameters.features, parameters.contrast),
-                          camera_for_queries(map.info(), sequence.calibration.camera));
+  const FrameObserver observer(sequence,
+                               observer_options_for(map.info(), parameters.features, parameters.contrast),
+                               camera_for_queries(map.info(), sequence.calibration.camera));
   const Localizer localizer(map, camera, parameters.localize);
   const LocalizedSequence found = localize_sequence(
-      localizer, sequence, frontend,
+      localizer, sequence, observer,
       {read_priors(arguments, sequence), follows(arguments, sequence, *progress), parameters.localize.trust},
       executor, *progress);
   summary.unreadable = found.unreadable.size();

@@ -67,7 +67,9 @@ int report_nothing_tracked(const SlamResult& result) {
 /// A map of its first frame only is no answer.
 int warn_if_never_followed(const SlamResult& result) {
   if (result.frames.size() < 2 || result.trajectory().size() > 1) return 0;
-  const auto is_too_far = [](const FrameTrack& track) { return track.decision == KeyframeDecision::too_far; };
+  const auto is_too_far = [](const TrackingResult& track) {
+    return track.status == TrackingStatus::implausible;
+  };
   if (std::any_of(result.frames.begin(), result.frames.end(), is_too_far)) {
     fmt::print(stderr, "cairn slam: no motion below max_motion was found between any two of {} frames.\n",
                result.frames.size());

@@ -25,9 +25,9 @@ namespace {
 std::vector<std::optional<WorldFromCamera>> keyframe_poses(const Sequence& sequence,
                                                            const SlamResult& result) {
   std::vector<std::optional<WorldFromCamera>> poses(sequence.frames.size());
-  const std::int32_t part = result.main_part();
+  const std::int32_t component = result.main_component();
   for (const Keyframe& keyframe : result.map.keyframes()) {
-    if (!keyframe.erased && keyframe.part == part && keyframe.observed.frame.valid())
+    if (!keyframe.erased && keyframe.component == component && keyframe.observed.frame.valid())
       poses[static_cast<std::size_t>(keyframe.observed.frame.value)] =
           WorldFromCamera(keyframe.world_from_camera);
   }

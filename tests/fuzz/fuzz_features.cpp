@@ -116,8 +116,8 @@ void match_by_geometry(const Features& a, const Features& b, Input& input) {
   options.matching = options_of(input);
   check_matches(match_along_epipolar_lines({camera, a}, {camera, b}, motion, options), a.keypoints.size(),
                 b.keypoints.size());
-  std::vector<PredictedPlace> places(a.keypoints.size());
-  for (PredictedPlace& place : places)
+  std::vector<SearchWindow> places(a.keypoints.size());
+  for (SearchWindow& place : places)
     place = {input.between(-100, 300), input.between(-100, 300), input.between(0, 100), 0,
              input.between(0, 300)};
   check_matches(match_predicted(places, a.descriptors, b, options_of(input)), places.size(),

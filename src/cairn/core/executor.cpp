@@ -23,12 +23,12 @@ struct Slot {
   std::exception_ptr failure;  // thrown when its turn comes, as one thread would
 };
 
-/// What was done before a give() is seen after a take() that follows it. TBB orders its tasks anyway; this
-/// says so where the thread sanitizer, which does not see into TBB, looks.
+/// What was done before a publish() is seen after a acquire() that follows it. TBB orders its tasks anyway;
+/// this says so where the thread sanitizer, which does not see into TBB, looks.
 class Handover {
  public:
-  void give() { turns_.fetch_add(1, std::memory_order_acq_rel); }
-  void take() const { (void)turns_.load(std::memory_order_acquire); }
+  void publish() { turns_.fetch_add(1, std::memory_order_acq_rel); }
+  void acquire() const { (void)turns_.load(std::memory_order_acquire); }
 
  private:
   std::atomic<unsigned> turns_ = 0;
@@ -48,27 +48,27 @@ struct Pipeline {
   Slot& slot(std::size_t index) { return slots[index % slots.size()]; }
 
   std::size_t draw(tbb::flow_control& flow) {
-    handover.take();
+    handover.acquire();
     const std::size_t index = stopped ? count : next++;
     if (index >= count) flow.stop();
-    handover.give();
+    handover.publish();
     return index;
   }
 
   std::size_t make(std::size_t index) {
-    handover.take();
+    handover.acquire();
     if (stopped) return index;
     try {
       slot(index) = {produce(index), nullptr};
     } catch (...) {
       slot(index) = {nullptr, std::current_exception()};
     }
-    handover.give();
+    handover.publish();
     return index;
   }
 
   void use(std::size_t index) {
-    handover.take();
+    handover.acquire();
     if (stopped) return;
     try {
       const Slot mine = std::exchange(slot(index), {});
@@ -78,7 +78,7 @@ struct Pipeline {
       failure = std::current_exception();
       stopped = true;
     }
-    handover.give();
+    handover.publish();
   }
 };
 
@@ -110,20 +110,20 @@ struct Executor::Task::State {
   Handover begun, done;
 
   void run() {
-    begun.take();
+    begun.acquire();
     try {
       work();
     } catch (...) {
       failure = std::current_exception();
     }
-    done.give();
+    done.publish();
   }
 
   void wait() {
     if (std::exchange(waited, true)) return;
     if (arena != nullptr) {
       arena->execute([this] { group.wait(); });
-      done.take();
+      done.acquire();
     } else {
       run();
     }
@@ -145,7 +145,7 @@ void Executor::Task::wait() {
 Executor::Task Executor::start(std::function<void()> work) const {
   auto state = std::make_unique<Task::State>(std::move(work), arena_ ? &arena_->arena : nullptr);
   Task::State* running = state.get();
-  running->begun.give();
+  running->begun.publish();
   if (arena_) arena_->arena.execute([running] { running->group.run([running] { running->run(); }); });
   return Task(std::move(state));
 }
@@ -156,16 +156,16 @@ void Executor::for_each(std::size_t count, const std::function<void(std::size_t)
     return;
   }
   Handover begun, done;
-  begun.give();
+  begun.publish();
   const auto run = [&](const tbb::blocked_range<std::size_t>& range) {
-    begun.take();
+    begun.acquire();
     for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-    done.give();
+    done.publish();
   };
   const auto loop = [&] { tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), run); };
   // Isolated: a loop within a pipeline's consumer waits for its own items only, not for another frame's.
   arena_->arena.execute([&] { tbb::this_task_arena::isolate(loop); });
-  done.take();
+  done.acquire();
 }
 
 void Executor::for_each_chunk(std::size_t count, std::size_t grain,
@@ -191,13 +191,13 @@ void Executor::run_pipeline(std::size_t count,
   const auto draw = [&](tbb::flow_control& flow) { return pipeline.draw(flow); };
   const auto make = [&](Index index) { return pipeline.make(index); };
   const auto use = [&](Index index) { pipeline.use(index); };
-  pipeline.handover.give();
+  pipeline.handover.publish();
   arena_->arena.execute([&] {
     tbb::parallel_pipeline(under_way, tbb::make_filter<void, Index>(filter_mode::serial_in_order, draw) &
                                           tbb::make_filter<Index, Index>(filter_mode::parallel, make) &
                                           tbb::make_filter<Index, void>(filter_mode::serial_in_order, use));
   });
-  pipeline.handover.take();
+  pipeline.handover.acquire();
   if (pipeline.failure) std::rethrow_exception(pipeline.failure);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -30,7 +31,7 @@ std::string bytes_of(Values... values) {
 }
 
 /// Returns x as it is read from a field of this kind, with a value before it and two behind it.
-float x_of(char kind, int size, const std::string& x) {
+float x_of(char kind, std::size_t size, const std::string& x) {
   const PointRecords records("cloud", {{"id", 'U', 2, 1}, {"x", kind, size, 1}, {"y"}, {"z"}});
   const std::string bytes = bytes_of(std::uint16_t{7}) + x + bytes_of(2.0F, 3.0F);
   EXPECT_EQ(records.bytes_per_point(), bytes.size());

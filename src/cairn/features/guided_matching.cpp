@@ -155,7 +155,7 @@ std::vector<Match> match_along_epipolar_lines(const CameraFeatures& query, const
       executor));
 }
 
-std::vector<Match> match_predicted(const std::vector<PredictedPlace>& places, const Descriptors& descriptors,
+std::vector<Match> match_predicted(const std::vector<SearchWindow>& places, const Descriptors& descriptors,
                                    const Features& features, const MatchOptions& options,
                                    const Executor& executor) {
   options.validate();
@@ -164,7 +164,7 @@ std::vector<Match> match_predicted(const std::vector<PredictedPlace>& places, co
   require_comparable(descriptors, features.descriptors);
   const KeypointGrid grid(features.keypoints);
   const auto find = [&](std::size_t p, Candidates& candidates) {
-    const PredictedPlace& place = places[p];
+    const SearchWindow& place = places[p];
     grid.find(place.u, place.v, place.radius_px, candidates.trains);
     std::erase_if(candidates.trains, [&](std::int32_t i) {
       const auto size = static_cast<double>(features.keypoints[static_cast<std::size_t>(i)].size);

@@ -43,7 +43,7 @@ struct EpipolarMatchOptions {
                                                             const Executor& executor = Executor());
 
 /// Where a landmark should be seen.
-struct PredictedPlace {
+struct SearchWindow {
   double u = 0, v = 0;   ///< pixels
   double radius_px = 0;  ///< of the window around it
   double min_size = 0;   ///< of the keypoint that may show it, pixels
@@ -55,7 +55,7 @@ struct PredictedPlace {
 /// landmarks that it could be. A place that is not finite matches nothing. The same bits at
 /// any number of threads and on every processor.
 /// PreconditionError where there are not as many descriptors as places, or the descriptors differ.
-[[nodiscard]] std::vector<Match> match_predicted(const std::vector<PredictedPlace>& places,
+[[nodiscard]] std::vector<Match> match_predicted(const std::vector<SearchWindow>& places,
                                                  const Descriptors& descriptors, const Features& features,
                                                  const MatchOptions& options,
                                                  const Executor& executor = Executor());

@@ -205,7 +205,7 @@ TEST(MatchAlongEpipolarLines, refuses_what_has_no_meaning) {
 
 /// Random landmarks and keypoints with few different descriptors.
 struct Predictions {
-  std::vector<PredictedPlace> places;
+  std::vector<SearchWindow> places;
   Descriptors descriptors;
   Features features;
 
@@ -292,7 +292,7 @@ TEST(MatchPredicted, nothing_and_numbers_that_are_none_match_nothing) {
   Predictions predictions(Norm::hamming, 5, 20, 1);
   EXPECT_TRUE(match_predicted({}, Descriptors(), predictions.features, {}).empty());
   EXPECT_TRUE(match_predicted(predictions.places, predictions.descriptors, {}, {}).empty());
-  for (PredictedPlace& place : predictions.places) place.radius_px = kInfinity, place.min_size = 0;
+  for (SearchWindow& place : predictions.places) place.radius_px = kInfinity, place.min_size = 0;
   predictions.places[0].u = kNan, predictions.places[1].radius_px = kNan,
   predictions.places[2].max_size = kNan;
   predictions.features.keypoints[0].u = static_cast<float>(kNan);

@@ -16,12 +16,12 @@ constexpr int kRowsPerTask = 64;    // large enough that a task is worth its sta
 constexpr double kMaxShrink = 1.8;  // 8 output pixels fit into 16 source pixels
 
 /// Between which two source pixels an output pixel lies.
-struct Place {
+struct Interpolation {
   int left = 0;
   double share_of_right = 0;  // [0, 1]
 };
 
-Place place_of(int output, int output_size, int source_size) {
+Interpolation interpolation_at(int output, int output_size, int source_size) {
   const double ratio = static_cast<double>(source_size) / output_size;
   const double at = std::clamp((output + 0.5) * ratio - 0.5, 0.0, source_size - 1.0);
   const int left = std::min(static_cast<int>(at), source_size - 2);
@@ -34,9 +34,11 @@ std::vector<ResizeBlock> blocks_of_row(int output_width, int source_width) {
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     ResizeBlock& block = blocks[b];
     const int begin = static_cast<int>(b) * kBlock;
-    block.first = std::min(place_of(begin, output_width, source_width).left, source_width - kSourcePixels);
+    block.first =
+        std::min(interpolation_at(begin, output_width, source_width).left, source_width - kSourcePixels);
     for (int i = 0; i < kBlock; ++i) {
-      const Place place = place_of(std::min(begin + i, output_width - 1), output_width, source_width);
+      const Interpolation place =
+          interpolation_at(std::min(begin + i, output_width - 1), output_width, source_width);
       const int right_weight = static_cast<int>(std::lround(place.share_of_right * kUnits));
       block.source[2 * i] = static_cast<std::uint8_t>(place.left - block.first);
       block.source[2 * i + 1] = static_cast<std::uint8_t>(place.left + 1 - block.first);
@@ -57,7 +59,7 @@ class StripResizer {
 
   void write_row(GrayImage& out, int v) {
     constexpr double kUnits = 32768;
-    const Place place = place_of(v, out.height(), source_.height());
+    const Interpolation place = interpolation_at(v, out.height(), source_.height());
     const int weight = static_cast<int>(std::min(std::lround(place.share_of_right * kUnits), 32767L));
     const std::int16_t* upper = resized(place.left);
     const std::int16_t* lower = resized(place.left + 1);

@@ -9,7 +9,7 @@
 #include "cairn/features/image_pyramid.h"
 #include "cairn/features/kernels/orb_kernels.h"
 #include "cairn/features/orb_pattern.h"
-#include "cairn/features/spread.h"
+#include "cairn/features/uniform_selection.h"
 
 namespace cairn {
 namespace {
@@ -113,13 +113,13 @@ std::vector<Selected> select(std::vector<Corner> corners, int count, const GrayI
     strongest_first.push_back({corner.u, corner.v, harris_measure(image, corner.u, corner.v)});
   std::stable_sort(strongest_first.begin(), strongest_first.end(),
                    [](const Selected& a, const Selected& b) { return a.harris > b.harris; });
-  std::vector<ImagePlace> places;
+  std::vector<PixelPosition> places;
   places.reserve(corners.size());
   for (const Selected& corner : strongest_first)
     places.push_back({static_cast<float>(corner.u), static_cast<float>(corner.v)});
   std::vector<Selected> selected;
   for (const std::size_t i :
-       select_spread(places, image.width(), image.height(), static_cast<std::size_t>(count)))
+       select_uniform(places, image.width(), image.height(), static_cast<std::size_t>(count)))
     selected.push_back(strongest_first[i]);
   return selected;
 }

@@ -12,7 +12,7 @@
 #include "cairn/features/sift_orientation.h"
 #include "cairn/features/sift_patch.h"
 #include "cairn/features/sift_scale_space.h"
-#include "cairn/features/spread.h"
+#include "cairn/features/uniform_selection.h"
 
 namespace cairn {
 namespace {
@@ -65,25 +65,25 @@ Keypoint keypoint_of(const ScaleSpace& space, const ScalePoint& point, float ang
           static_cast<float>(std::max(1.0, sigma / kSiftSigma))};
 }
 
-/// The strongest points, spread over the image; they come strongest first.
-std::vector<ScalePoint> spread(const ScaleSpace& space, const std::vector<ScalePoint>& points,
-                               std::size_t count) {
-  std::vector<ImagePlace> places;
+/// The strongest points, uniform over the image; they come strongest first.
+std::vector<ScalePoint> uniform(const ScaleSpace& space, const std::vector<ScalePoint>& points,
+                                std::size_t count) {
+  std::vector<PixelPosition> places;
   for (const ScalePoint& point : points) {
     const auto pixel = static_cast<float>(ScaleSpace::pixel_size(point.octave));
     places.push_back({pixel * point.x, pixel * point.y});
   }
   std::vector<ScalePoint> selected;
-  for (const std::size_t i : select_spread(places, space.width(), space.height(), count))
+  for (const std::size_t i : select_uniform(places, space.width(), space.height(), count))
     selected.push_back(points[i]);
   return selected;
 }
 
 /// The same of features: points of several directions may have made more than wanted.
-Features spread(const ScaleSpace& space, const std::vector<Described>& described, std::size_t count) {
-  std::vector<ImagePlace> places;
+Features uniform(const ScaleSpace& space, const std::vector<Described>& described, std::size_t count) {
+  std::vector<PixelPosition> places;
   for (const Described& feature : described) places.push_back({feature.keypoint.u, feature.keypoint.v});
-  const auto selected = select_spread(places, space.width(), space.height(), count);
+  const auto selected = select_uniform(places, space.width(), space.height(), count);
   Features features{{}, Descriptors(Norm::l2, kSiftDescriptorBytes, selected.size())};
   for (const std::size_t i : selected) {
     const auto& descriptor = described[i].descriptor;
@@ -101,8 +101,8 @@ class SiftExtractor : public Extractor {
     std::unique_ptr<ScaleSpace> space = pool_.take(image.width(), image.height());
     space->build(image, executor);
     const auto count = static_cast<std::size_t>(options_.count);
-    const auto points = spread(*space, find_sift_extrema(*space, options_.extrema, executor), count);
-    Features features = spread(*space, describe(*space, points, executor), count);
+    const auto points = uniform(*space, find_sift_extrema(*space, options_.extrema, executor), count);
+    Features features = uniform(*space, describe(*space, points, executor), count);
     pool_.give_back(std::move(space));
     return features;
   }

@@ -22,7 +22,7 @@ constexpr int kRowsAhead = 3;    // that are asked for before their turn
 constexpr int kCacheLine = 16;   // floats
 constexpr int kSecondCache = 2;  // __builtin_prefetch's name for it
 
-struct Place {
+struct GridPosition {
   int x, y, level;
 };
 
@@ -41,7 +41,7 @@ double difference(const OctaveRows& rows, int x, int y, int level) {
   return static_cast<double>(rows.row(level + 1, y)[x] - rows.row(level, y)[x]);
 }
 
-Derivatives derivatives_at(const OctaveRows& rows, const Place& at) {
+Derivatives derivatives_at(const OctaveRows& rows, const GridPosition& at) {
   const auto d = [&](int dx, int dy, int ds) {
     return difference(rows, at.x + dx, at.y + dy, at.level + ds);
   };
@@ -120,8 +120,8 @@ class StripSearch {
   }
 
   /// Moves to the pixel and level nearest to the parabola's extremum until it stays.
-  [[nodiscard]] std::optional<ScalePoint> refine(const Place& start) const {
-    Place at = start;
+  [[nodiscard]] std::optional<ScalePoint> refine(const GridPosition& start) const {
+    GridPosition at = start;
     for (int move = 0; move < kMaxMoves; ++move) {
       const Derivatives derivatives = derivatives_at(rows_, at);
       const auto offset = parabola_offset(derivatives);
@@ -140,12 +140,12 @@ class StripSearch {
     return std::nullopt;
   }
 
-  [[nodiscard]] bool is_near(const Place& at, const Place& start) const {
+  [[nodiscard]] bool is_near(const GridPosition& at, const GridPosition& start) const {
     return std::abs(at.x - start.x) <= kReach && std::abs(at.y - start.y) <= kReach && at.level >= 1 &&
            at.level <= layers_;
   }
 
-  [[nodiscard]] std::optional<ScalePoint> accept(const Place& at, const Derivatives& derivatives,
+  [[nodiscard]] std::optional<ScalePoint> accept(const GridPosition& at, const Derivatives& derivatives,
                                                  const Vector3& offset) const {
     const Vector3& g = derivatives.gradient;
     const double value =

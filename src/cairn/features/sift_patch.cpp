@@ -12,14 +12,14 @@ namespace cairn {
 namespace {
 
 /// The level whose smoothing is nearest to a point's, and the point in its pixels.
-struct Seen {
+struct PointInLevel {
   const ScaleLevel& level;
   float x, y;
   double sigma;
 };
 
 /// The coarse levels of an octave are in the next one, too, where they take a quarter of the memory to read.
-Seen see(const ScaleSpace& space, const ScalePoint& point) {
+PointInLevel see(const ScaleSpace& space, const ScalePoint& point) {
   const int level = static_cast<int>(std::lround(point.level));
   const double sigma = space.sigma(static_cast<double>(point.level));
   if (level < space.layers() || point.octave + 1 == space.octave_count())
@@ -30,7 +30,7 @@ Seen see(const ScaleSpace& space, const ScalePoint& point) {
 }  // namespace
 
 void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch& patch, float* samples) {
-  const Seen seen = see(space, point);
+  const PointInLevel seen = see(space, point);
   const double angle = patch.angle_deg * std::numbers::pi / 180, step = patch.step * seen.sigma;
   const PatchGrid grid{seen.level.pixels,
                        seen.level.width,
@@ -47,7 +47,7 @@ void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch&
 void prefetch_patch(const ScaleSpace& space, const ScalePoint& point, double reach) {
   constexpr int kCacheLine = 16;  // floats
   constexpr int kSecondCache = 2;
-  const Seen seen = see(space, point);
+  const PointInLevel seen = see(space, point);
   const auto radius = static_cast<float>(reach * seen.sigma);
   const int left = std::max(0, static_cast<int>(seen.x - radius)) / kCacheLine * kCacheLine;
   const int right = std::min(seen.level.width - 1, static_cast<int>(seen.x + radius));

@@ -5,7 +5,7 @@ namespace cairn {
 
 void GuidedSearch::add(std::size_t number, const Eigen::Vector3d& point_in_world,
                        const Appearance& appearance, double extra_px) {
-  auto window = predict_place(frame_, point_in_world, appearance, radius_px_);
+  auto window = predict_window(frame_, point_in_world, appearance, radius_px_);
   if (!window) return;
   window->radius_px += extra_px;
   numbers_.push_back(number);

@@ -20,8 +20,8 @@ struct GuidedMatch {
 /// descriptor in an earlier frame.
 class GuidedSearch {
  public:
-  /// `radius_px` is that of the window at the lowest pyramid level, see predict_place. The frame outlives the
-  /// search.
+  /// `radius_px` is that of the window at the lowest pyramid level, see predict_window. The frame outlives
+  /// the search.
   GuidedSearch(const PosedFrame& frame, double radius_px) : frame_(frame), radius_px_(radius_px) {}
 
   /// Adds a point, with its number for the matches and the pixels by which its window is wider than that of
@@ -40,7 +40,7 @@ class GuidedSearch {
   PosedFrame frame_;
   double radius_px_;
   std::vector<std::size_t> numbers_;
-  std::vector<PredictedPlace> windows_;
+  std::vector<SearchWindow> windows_;
   std::vector<Appearance> appearances_;
 };
 

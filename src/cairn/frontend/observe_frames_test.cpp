@@ -48,14 +48,14 @@ class ObserveFramesTest : public testing::Test, protected RecordingFolder {
 
   FrameStreamReport observe(int threads, std::vector<std::size_t> indices = {0, 1, 2, 3, 4, 5}) {
     const Sequence sequence = open_sequence(folder_);
-    const Frontend frontend(sequence, ObserverOptions());
+    const FrameObserver observer(sequence, ObserverOptions());
     FrameStream stream{"looking", "image"};
-    stream.process = [&](std::size_t index, Arrival&& arrival) {
+    stream.process = [&](std::size_t index, LoadedFrame&& loaded) {
       processed_.push_back(index);
-      if (arrival.failure) failed_.push_back(index);
+      if (loaded.failure) failed_.push_back(index);
     };
-    stream.prepare = [&](std::size_t, const Arrival&) { ++prepared_; };
-    return observe_frames(sequence, frontend, indices, stream, Executor(threads), listener_);
+    stream.prepare = [&](std::size_t, const LoadedFrame&) { ++prepared_; };
+    return observe_frames(sequence, observer, indices, stream, Executor(threads), listener_);
   }
 
   Listener listener_;

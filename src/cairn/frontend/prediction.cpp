@@ -13,8 +13,8 @@ constexpr double kMaxSizeRatio = 1.5;      // of found to expected: two levels o
 
 }  // namespace
 
-std::optional<PredictedPlace> predict_place(const PosedFrame& view, const Eigen::Vector3d& point_in_world,
-                                            const Appearance& appearance, double radius_px) {
+std::optional<SearchWindow> predict_window(const PosedFrame& view, const Eigen::Vector3d& point_in_world,
+                                           const Appearance& appearance, double radius_px) {
   constexpr double kMinDepth = 1e-3;  // metres
   const Eigen::Vector3d point = view.camera_from_world * point_in_world;
   if (!(point.z() > kMinDepth)) return std::nullopt;
@@ -27,7 +27,7 @@ std::optional<PredictedPlace> predict_place(const PosedFrame& view, const Eigen:
   const Eigen::Vector3d pixel = view.rig.project(point);
   const double size = ratio * static_cast<double>(appearance.keypoint.size);
   const double sigma = std::max(1.0, ratio * static_cast<double>(appearance.keypoint.sigma_px));
-  return PredictedPlace{pixel.x(), pixel.y(), radius_px * sigma, size / kMaxSizeRatio, size * kMaxSizeRatio};
+  return SearchWindow{pixel.x(), pixel.y(), radius_px * sigma, size / kMaxSizeRatio, size * kMaxSizeRatio};
 }
 
 Descriptors gather(std::span<const Appearance> appearances) {

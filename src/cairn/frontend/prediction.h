@@ -28,9 +28,9 @@ struct PosedFrame {
 /// Where a point should be seen: nothing behind the camera, from a direction more than 60 degrees away from
 /// that of its appearance, or at more than five times its distance or less than a fifth. `radius_px` is for
 /// the lowest pyramid level and grows with the expected one.
-[[nodiscard]] std::optional<PredictedPlace> predict_place(const PosedFrame& view,
-                                                          const Eigen::Vector3d& point_in_world,
-                                                          const Appearance& appearance, double radius_px);
+[[nodiscard]] std::optional<SearchWindow> predict_window(const PosedFrame& view,
+                                                         const Eigen::Vector3d& point_in_world,
+                                                         const Appearance& appearance, double radius_px);
 
 /// The descriptors, in this order; all of one kind.
 [[nodiscard]] Descriptors gather(std::span<const Appearance> appearances);

@@ -14,7 +14,7 @@ constexpr double kMinForward = 0.1;     // of the mean optical axis, at a right 
 constexpr double kMinResolution = 0.8;  // of the raw images' in the middle; README, "Calibration"
 
 /// A part of the image plane at distance 1 of the rectified cameras.
-struct View {
+struct BorderView {
   Eigen::Vector2d centre;
   double half_width;  ///< its height follows from the images' shape
 };
@@ -31,8 +31,8 @@ class CommonView {
 
   /// The largest view with this centre whose border both cameras see; nothing where they do not see one of
   /// `half_width`.
-  [[nodiscard]] std::optional<View> around(const Eigen::Vector2d& centre, double half_width) const {
-    View view{centre, half_width};
+  [[nodiscard]] std::optional<BorderView> around(const Eigen::Vector2d& centre, double half_width) const {
+    BorderView view{centre, half_width};
     if (!sees_border(view)) return std::nullopt;
     constexpr int kHalvings = 40;
     constexpr double kWidest = 4;  // 76 degrees to each side; a pinhole image of more is all border
@@ -54,7 +54,7 @@ class CommonView {
     const auto pixel = camera.project(camera_from_rectified * direction.homogeneous());
     return pixel && camera.contains(*pixel);
   }
-  [[nodiscard]] bool sees_border(const View& view) const {
+  [[nodiscard]] bool sees_border(const BorderView& view) const {
     constexpr int kSteps = 24;  // a side; between them images' borders are straight to a tenth of a pixel
     const Eigen::Vector2d half(view.half_width, view.half_width * height_over_width_);
     for (int i = 0; i <= kSteps; ++i) {
@@ -73,11 +73,11 @@ class CommonView {
 };
 
 /// The widest view: its centre is moved in four directions while that helps, in ever smaller steps.
-std::optional<View> widest_view(const CommonView& common, const Eigen::Vector2d& start) {
+std::optional<BorderView> widest_view(const CommonView& common, const Eigen::Vector2d& start) {
   constexpr double kFirstStep = 0.1, kLastStep = 1e-4;  // on the plane at distance 1: 6 and 0.006 degrees
   auto best = common.around(start, 0);
   for (double step = kFirstStep; best && step >= kLastStep;) {
-    const View from = *best;
+    const BorderView from = *best;
     for (const Eigen::Vector2d& move : {Eigen::Vector2d(step, 0), Eigen::Vector2d(-step, 0),
                                         Eigen::Vector2d(0, step), Eigen::Vector2d(0, -step)}) {
       const auto moved = common.around(from.centre + move, best->half_width);

@@ -69,7 +69,8 @@ struct TwoViewResult {
 struct MetricScale {
   std::size_t points = 0;      ///< with a measured depth; the scale is determined where there is one
   double metres_per_unit = 0;  ///< of the two views' translation
-  double spread = 0;  ///< relative: 1.4826 times the median absolute deviation of the ratios over the median
+  double relative_mad =
+      0;  ///< relative: 1.4826 times the median absolute deviation of the ratios over the median
 };
 
 /// `depths_in_a` are metres along the optical axis at each of the points, not above 0 where unknown.

@@ -83,7 +83,7 @@ TEST(TwoView, depth_gives_the_scale) {
     depths.push_back(point.pair % 3 == 0 ? 0.0 : scene.points_in_a[static_cast<std::size_t>(point.pair)].z());
   const MetricScale scale = metric_scale(result.points, depths);
   EXPECT_NEAR(scale.metres_per_unit, 0.8, 0.02);
-  EXPECT_LT(scale.spread, 0.05);
+  EXPECT_LT(scale.relative_mad, 0.05);
   EXPECT_LT(scale.points, result.points.size());
   EXPECT_EQ(metric_scale({}, {}).points, 0U);
 }

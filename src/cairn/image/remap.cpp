@@ -34,13 +34,13 @@ Rgb8 blend(const Shares& shares, const Rgb8& upper_left, const Rgb8& upper_right
 }
 
 /// A coordinate as the first of two neighbouring pixels and the second one's share of 256.
-struct Place {
+struct Interpolation {
   int first;
   int share;
 };
 
 /// `coordinate` in [0, size - 1]; the last pixel is the second of the last two.
-Place place_of(double coordinate, int size) {
+Interpolation interpolation_at(double coordinate, int size) {
   const auto fixed = static_cast<int>(std::lround(coordinate * kOne));
   const int first = std::clamp(fixed / kOne, 0, std::max(0, size - 2));
   return {first, fixed - first * kOne};
@@ -71,8 +71,8 @@ ImageRemap::Origin ImageRemap::origin_of(const Eigen::Vector2d& pixel) const {
   const bool is_inside =
       pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() <= u_end + 0.5 && pixel.y() <= v_end + 0.5;
   if (!is_inside) return {};
-  const Place u = place_of(std::clamp(pixel.x(), 0.0, u_end), source_width_);
-  const Place v = place_of(std::clamp(pixel.y(), 0.0, v_end), source_height_);
+  const Interpolation u = interpolation_at(std::clamp(pixel.x(), 0.0, u_end), source_width_);
+  const Interpolation v = interpolation_at(std::clamp(pixel.y(), 0.0, v_end), source_height_);
   return {v.first * source_width_ + u.first, static_cast<std::uint16_t>(u.share),
           static_cast<std::uint16_t>(v.share)};
 }

@@ -43,7 +43,7 @@ StreetWorld::Options street(double length) {
 }
 
 /// Looks for images along the street, which are found.
-void find_images(const StreetWorld& world, const MapView& map, double length) {
+void find_images(const StreetWorld& world, const StoredMap& map, double length) {
   const Localizer localizer(map, testkit::street_query_camera(), LocalizeOptions());
   for (std::uint64_t i = 0; i < kQueries; ++i) {
     const double x = 5 + (length - 20) * static_cast<double>(i) / static_cast<double>(kQueries);
@@ -57,10 +57,10 @@ TEST(LargeMapSlow, a_query_of_a_million_landmarks_is_little_more_work_than_of_te
   const StreetWorld small(street(kShort)), large(street(kLong));
   small.write_map(folder.path() / "small");
   large.write_map(folder.path() / "large");
-  const MapView small_map(folder.path() / "small");
+  const StoredMap small_map(folder.path() / "small");
   find_images(small, small_map, kShort);
   const double before_mb = memory_mb();
-  const MapView map(folder.path() / "large");
+  const StoredMap map(folder.path() / "large");
   const std::uint64_t all = bytes_in(folder.path() / "large"), opened = map.touched_bytes();
   EXPECT_GE(map.info().landmarks, 1'000'000U);
   EXPECT_LT(opened, all / 20);

@@ -19,18 +19,18 @@ class LocalizePipeline {
     if (sequence.has_times) motion_.emplace(options.trust);
   }
 
-  void prepare(std::size_t index, const Arrival& arrival) {
-    localize(index, arrival, options_.priors.empty() ? std::nullopt : options_.priors[index]);
+  void prepare(std::size_t index, const LoadedFrame& loaded) {
+    localize(index, loaded, options_.priors.empty() ? std::nullopt : options_.priors[index]);
   }
 
-  void process(std::size_t index, const Arrival& arrival) {
-    if (arrival.failure) return;
-    if (options_.follow) localize(index, arrival, last_);
+  void process(std::size_t index, const LoadedFrame& loaded) {
+    if (loaded.failure) return;
+    if (options_.follow) localize(index, loaded, last_);
     LocalizedImage& image = images_[index];
     image.position = static_cast<std::int64_t>(index);
-    image.stamp_ns = arrival.observed.stamp_ns;
+    image.stamp_ns = loaded.observed.stamp_ns;
     image.file = sequence_.frames[index].color.filename().string();
-    image.feature_seconds = arrival.feature_seconds;
+    image.feature_seconds = loaded.feature_seconds;
     if (motion_) motion_->check(image.stamp_ns, image.found);
     if (image.found.verdict == Verdict::good) last_ = image.found.camera_from_world.inverse();
     result_.images.push_back(std::move(image));
@@ -39,9 +39,9 @@ class LocalizePipeline {
   [[nodiscard]] LocalizedSequence take_result() { return std::move(result_); }
 
  private:
-  void localize(std::size_t index, const Arrival& arrival, const std::optional<WorldFromCamera>& prior) {
+  void localize(std::size_t index, const LoadedFrame& loaded, const std::optional<WorldFromCamera>& prior) {
     Stopwatch watch;
-    images_[index].found = localizer_.localize(arrival.observed, prior);
+    images_[index].found = localizer_.localize(loaded.observed, prior);
     images_[index].localize_seconds = watch.lap();
   }
 
@@ -57,16 +57,16 @@ class LocalizePipeline {
 }  // namespace
 
 LocalizedSequence localize_sequence(const Localizer& localizer, const Sequence& sequence,
-                                    const Frontend& frontend, const LocalizeSequenceOptions& options,
+                                    const FrameObserver& observer, const LocalizeSequenceOptions& options,
                                     const Executor& executor, Progress& progress) {
   require(options.priors.empty() || options.priors.size() == sequence.frames.size(),
           "each image has a prior, or none has");
   LocalizePipeline pipeline(localizer, sequence, options);
   FrameStream stream{"localising", "image"};
   if (!options.follow)
-    stream.prepare = [&](std::size_t index, const Arrival& arrival) { pipeline.prepare(index, arrival); };
-  stream.process = [&](std::size_t index, Arrival&& arrival) { pipeline.process(index, arrival); };
-  const FrameStreamReport report = observe_frames(sequence, frontend, stream, executor, progress);
+    stream.prepare = [&](std::size_t index, const LoadedFrame& loaded) { pipeline.prepare(index, loaded); };
+  stream.process = [&](std::size_t index, LoadedFrame&& loaded) { pipeline.process(index, loaded); };
+  const FrameStreamReport report = observe_frames(sequence, observer, stream, executor, progress);
   LocalizedSequence result = pipeline.take_result();
   result.unreadable = report.unreadable;
   return result;

@@ -7,7 +7,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
-#include "cairn/frontend/frontend.h"
+#include "cairn/frontend/frame_observer.h"
 #include "cairn/localize/localizer.h"
 #include "cairn/sequence/sequence.h"
 
@@ -36,7 +36,7 @@ struct LocalizedSequence {
 /// Localizes the images of a sequence, one beside the other unless each follows the one before, until a stop
 /// is requested. The same result at any number of threads. Throws InputError if no image can be read.
 [[nodiscard]] LocalizedSequence localize_sequence(const Localizer& localizer, const Sequence& sequence,
-                                                  const Frontend& frontend,
+                                                  const FrameObserver& observer,
                                                   const LocalizeSequenceOptions& options,
                                                   const Executor& executor, Progress& progress);
 

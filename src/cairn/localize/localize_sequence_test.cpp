@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
-#include "cairn/map/map_view.h"
+#include "cairn/map/stored_map.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/survey.h"
 #include "cairn/testing/core/temporary_folder.h"
@@ -43,9 +43,9 @@ class LocalizeSequence : public testing::Test {
                              Progress* progress = nullptr) const {
     const Localizer localizer(map_, {map_.info().rig, map_.info().width, map_.info().height},
                               LocalizeOptions());
-    const Frontend frontend(sequence_, SurveyOptions().observer);
+    const FrameObserver observer(sequence_, SurveyOptions().observer);
     Progress silent;
-    return localize_sequence(localizer, sequence_, frontend, options, Executor(threads),
+    return localize_sequence(localizer, sequence_, observer, options, Executor(threads),
                              progress != nullptr ? *progress : silent);
   }
   [[nodiscard]] double error_m(const LocalizedImage& image) const {
@@ -55,7 +55,7 @@ class LocalizeSequence : public testing::Test {
 
   static inline std::unique_ptr<const testkit::TemporaryFolder> folder_;
   Sequence sequence_;
-  const MapView map_;
+  const StoredMap map_;
 };
 
 TEST_F(LocalizeSequence, finds_the_images_of_the_map_in_their_order) {

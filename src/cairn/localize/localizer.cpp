@@ -116,7 +116,7 @@ std::string_view to_string(Weakness weakness) {
   return "";
 }
 
-Localizer::Localizer(const MapView& map, const QueryCamera& camera, const LocalizeOptions& options)
+Localizer::Localizer(const StoredMap& map, const QueryCamera& camera, const LocalizeOptions& options)
     : map_(map), camera_(camera), options_(options) {
   options.validate();
   require(camera.width > 0 && camera.height > 0 && camera.rig.fx > 0 && camera.rig.fy > 0,

@@ -44,13 +44,13 @@ struct Localization {
 
 /// Finds images in a map: frames that look alike (or a prior pose), matches with their landmarks, P3P in
 /// RANSAC, more matches around that pose, and the pose that explains them best by the noise of pixels and the
-/// covariances of landmarks. Poses are in the world of the map's largest part.
+/// covariances of landmarks. Poses are in the world of the map's largest component.
 ///
 /// Made once for a map and a camera, which live as long; may then be used by several threads at once. What is
 /// found depends on the image, the prior and the seed alone.
 class Localizer {
  public:
-  Localizer(const MapView& map, const QueryCamera& camera, const LocalizeOptions& options);
+  Localizer(const StoredMap& map, const QueryCamera& camera, const LocalizeOptions& options);
 
   /// `observed` is in the camera's rig. Where the prior pose does not lead to a good one, the whole map is
   /// looked through.
@@ -65,7 +65,7 @@ class Localizer {
   void judge(Localization& found) const;
   [[nodiscard]] Keyframes load(const std::vector<KeyframeId>& ids) const;
 
-  const MapView& map_;
+  const StoredMap& map_;
   QueryCamera camera_;
   LocalizeOptions options_;
 };

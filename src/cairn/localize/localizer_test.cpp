@@ -17,15 +17,15 @@ namespace {
 using testkit::StreetWorld;
 
 /// A map and what finds images in it.
-struct Place {
-  explicit Place(const StreetWorld::Options& options = {}) : world(options) {
+struct MappedWorld {
+  explicit MappedWorld(const StreetWorld::Options& options = {}) : world(options) {
     world.write_map(folder.path() / "map");
-    map = std::make_unique<MapView>(folder.path() / "map");
+    map = std::make_unique<StoredMap>(folder.path() / "map");
     localizer = std::make_unique<Localizer>(*map, testkit::street_query_camera(), LocalizeOptions());
   }
   testkit::TemporaryFolder folder;
   StreetWorld world;
-  std::unique_ptr<MapView> map;
+  std::unique_ptr<StoredMap> map;
   std::unique_ptr<Localizer> localizer;
 };
 
@@ -36,7 +36,7 @@ double squared_error_of(const Localization& found, const WorldFromCamera& truth)
 
 TEST(Localizer, finds_images_with_honest_covariances) {
   for (const bool stereo : {true, false}) {
-    const Place place;
+    const MappedWorld place;
     double nees = 0;
     constexpr int kQueries = 60;
     for (int i = 0; i < kQueries; ++i) {
@@ -54,7 +54,7 @@ TEST(Localizer, finds_images_with_honest_covariances) {
 }
 
 TEST(Localizer, the_protection_level_holds) {
-  const Place place;
+  const MappedWorld place;
   constexpr int kQueries = 100;
   int count = 0;
   for (int i = 0; i < kQueries; ++i) {
@@ -73,7 +73,7 @@ TEST(Localizer, the_protection_level_holds) {
 }
 
 TEST(Localizer, a_prior_pose_leads_there) {
-  const Place place;
+  const MappedWorld place;
   const WorldFromCamera truth = StreetWorld::pose_at(20, 0.2, 0.02);
   const auto view = place.world.see(truth, 900, true);
   const Localization found = place.localizer->localize(view.frame, StreetWorld::pose_at(20.2, 0.1, 0.03));
@@ -86,7 +86,7 @@ TEST(Localizer, a_prior_pose_leads_there) {
 }
 
 TEST(Localizer, an_image_of_another_place_is_not_good) {
-  const Place place;
+  const MappedWorld place;
   StreetWorld::Options elsewhere;
   elsewhere.seed = 77;
   const StreetWorld other(elsewhere);
@@ -97,7 +97,7 @@ TEST(Localizer, an_image_of_another_place_is_not_good) {
 }
 
 TEST(Localizer, says_why_a_pose_is_weak) {
-  const Place place;
+  const MappedWorld place;
   const WorldFromCamera truth = StreetWorld::pose_at(20);
   const auto few = place.world.see(truth, 900, true, 20);
   const Localization found = place.localizer->localize(few.frame);
@@ -116,7 +116,7 @@ TEST(Localizer, says_why_a_pose_is_weak) {
 }
 
 TEST(Localizer, several_threads_find_the_same) {
-  const Place place;
+  const MappedWorld place;
   constexpr std::size_t kQueries = 12;
   std::vector<StreetWorld::View> views;
   for (std::size_t i = 0; i < kQueries; ++i)
@@ -138,7 +138,7 @@ TEST(Localizer, several_threads_find_the_same) {
 }
 
 TEST(Retrieval, the_best_place_is_near) {
-  const Place place;
+  const MappedWorld place;
   for (int i = 0; i < 10; ++i) {
     const double x = 5.0 * i + 1;
     const auto view =
@@ -151,7 +151,7 @@ TEST(Retrieval, the_best_place_is_near) {
 }
 
 TEST(Retrieval, keyframes_near_a_pose_look_the_same_way) {
-  const Place place;
+  const MappedWorld place;
   const WorldFromCamera pose = StreetWorld::pose_at(30);
   const auto near = keyframes_near(*place.map, pose, 4);
   ASSERT_EQ(near.size(), 4U);

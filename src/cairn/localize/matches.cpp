@@ -15,7 +15,7 @@ struct Candidate {
   float distance;
   std::int32_t feature;
   LandmarkId landmark;
-  const ViewedKeyframe* keyframe;
+  const StoredKeyframe* keyframe;
   bool operator<(const Candidate& other) const {
     return std::tie(distance, feature, landmark) < std::tie(other.distance, other.feature, other.landmark);
   }
@@ -42,7 +42,7 @@ std::vector<Candidate> keep_nearest(std::vector<Candidate> candidates, std::size
   return kept;
 }
 
-std::vector<LandmarkMatch> with_points(const MapView& map, const ObservedFrame& observed,
+std::vector<LandmarkMatch> with_points(const StoredMap& map, const ObservedFrame& observed,
                                        const std::vector<Candidate>& candidates) {
   std::vector<LandmarkMatch> matches;
   for (const Candidate& candidate : candidates) {
@@ -58,7 +58,7 @@ std::vector<LandmarkMatch> with_points(const MapView& map, const ObservedFrame& 
 
 }  // namespace
 
-std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& keyframes,
+std::vector<LandmarkMatch> match_keyframes(const StoredMap& map, const Keyframes& keyframes,
                                            const ObservedFrame& observed, double max_ratio) {
   const Descriptors& descriptors = observed.features.descriptors;
   const MatchOptions options{descriptor_limit(descriptors), max_ratio, true};
@@ -70,10 +70,10 @@ std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& 
   return with_points(map, observed, keep_nearest(std::move(candidates), descriptors.count()));
 }
 
-std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map, const Keyframes& keyframes,
+std::vector<LandmarkMatch> match_predicted_landmarks(const StoredMap& map, const Keyframes& keyframes,
                                                      const PosedFrame& frame, double radius_px) {
   GuidedSearch search(frame, radius_px);
-  std::vector<std::pair<const ViewedKeyframe*, std::size_t>> shown;  // and the feature there
+  std::vector<std::pair<const StoredKeyframe*, std::size_t>> shown;  // and the feature there
   for (const auto& keyframe : keyframes) {
     for (std::size_t i = 0; i < keyframe->landmarks.size(); ++i) {
       search.add(

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cairn/frontend/prediction.h"
-#include "cairn/map/map_view.h"
 #include "cairn/map/observed_frame.h"
+#include "cairn/map/stored_map.h"
 
 namespace cairn {
 
@@ -21,17 +21,17 @@ struct LandmarkMatch {
   double distance = 0;  ///< from the camera of the keyframe whose look was matched, metres
 };
 
-using Keyframes = std::vector<std::shared_ptr<const ViewedKeyframe>>;
+using Keyframes = std::vector<std::shared_ptr<const StoredKeyframe>>;
 
 /// Matches the image with what each keyframe shows: nearest by descriptor, mutual, and clearly nearer than
 /// the second (`max_ratio`). A landmark counts as it looks in any of them. Each feature and each landmark is
 /// in one match, the nearest; ordered by feature. Landmarks that nothing determines are left out.
-[[nodiscard]] std::vector<LandmarkMatch> match_keyframes(const MapView& map, const Keyframes& keyframes,
+[[nodiscard]] std::vector<LandmarkMatch> match_keyframes(const StoredMap& map, const Keyframes& keyframes,
                                                          const ObservedFrame& observed, double max_ratio);
 
 /// Matches of the landmarks that the keyframes show with features near the places where the pose has them,
 /// as far as `radius_px` at the lowest pyramid level. Otherwise as match_keyframes, without the ratio.
-[[nodiscard]] std::vector<LandmarkMatch> match_predicted_landmarks(const MapView& map,
+[[nodiscard]] std::vector<LandmarkMatch> match_predicted_landmarks(const StoredMap& map,
                                                                    const Keyframes& keyframes,
                                                                    const PosedFrame& frame, double radius_px);
 

@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-bool MotionCheck::fits(const Stop& now) const {
+bool MotionCheck::fits(const StampedPose& now) const {
   if (!before_ || !last_) return true;
   constexpr double kSeconds = 1e-9, kRadians = std::numbers::pi / 180;
   const double first = kSeconds * static_cast<double>(last_->stamp_ns - before_->stamp_ns);
@@ -24,7 +24,7 @@ bool MotionCheck::fits(const Stop& now) const {
 
 void MotionCheck::check(std::int64_t stamp_ns, Localization& found) {
   if (!found.found()) return;
-  const Stop now{stamp_ns, found.camera_from_world.inverse()};
+  const StampedPose now{stamp_ns, found.camera_from_world.inverse()};
   if (found.verdict == Verdict::good && !fits(now)) {
     found.verdict = Verdict::weak;
     found.weakness = Weakness::inconsistent_with_motion;

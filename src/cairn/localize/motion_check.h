@@ -20,14 +20,14 @@ class MotionCheck {
   void check(std::int64_t stamp_ns, Localization& found);
 
  private:
-  struct Stop {
+  struct StampedPose {
     std::int64_t stamp_ns = 0;
     WorldFromCamera world_from_camera;
   };
-  [[nodiscard]] bool fits(const Stop& now) const;
+  [[nodiscard]] bool fits(const StampedPose& now) const;
 
   TrustOptions options_;
-  std::optional<Stop> before_, last_;
+  std::optional<StampedPose> before_, last_;
 };
 
 }  // namespace cairn

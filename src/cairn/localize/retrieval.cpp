@@ -12,13 +12,13 @@ class Voters {
  public:
   explicit Voters(std::size_t keyframes) : last_(keyframes, -1) {}
 
-  [[nodiscard]] const std::vector<std::int32_t>& of(const MapView& map, std::int32_t query,
+  [[nodiscard]] const std::vector<std::int32_t>& of(const StoredMap& map, std::int32_t query,
                                                     const PlaceFile::Neighbours& neighbours) {
     constexpr std::size_t kMostNeighbours = 16;  // a texture that is everywhere says nothing of the place
     voters_.clear();
     for (std::size_t i = 0; i < std::min(neighbours.size(), kMostNeighbours); ++i) {
       const StoredLandmark landmark = map.landmark({static_cast<std::int32_t>(neighbours[i].landmark)});
-      for (const std::int32_t keyframe : map.places().keyframes(landmark.first_row, landmark.sightings)) {
+      for (const std::int32_t keyframe : map.places().keyframes(landmark.first_row, landmark.observations)) {
         std::int32_t& last = last_[static_cast<std::size_t>(keyframe)];
         if (last == query) continue;
         last = query;
@@ -35,7 +35,7 @@ class Voters {
 
 }  // namespace
 
-std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& descriptors,
+std::vector<PlaceCandidate> find_places(const StoredMap& map, const Descriptors& descriptors,
                                         std::size_t most) {
   constexpr double kMaxDistanceShare = 0.45;  // as PlaceIndexOptions
   constexpr std::size_t kLeaves = 2;
@@ -55,7 +55,7 @@ std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& d
   for (std::size_t i = 0; i < documents; ++i)
     if (scores[i] > 0) scores[i] /= std::sqrt(static_cast<double>(map.places().shown_landmarks()[i]));
   for (std::size_t i = 0; i < documents; ++i)
-    if (scores[i] > 0 && map.in_main_part({static_cast<std::int32_t>(i)}))
+    if (scores[i] > 0 && map.in_main_component({static_cast<std::int32_t>(i)}))
       candidates.push_back({static_cast<std::int32_t>(i), scores[i] / total});
   const auto kept = static_cast<std::ptrdiff_t>(std::min(most, candidates.size()));
   std::partial_sort(candidates.begin(), candidates.begin() + kept, candidates.end(),
@@ -66,7 +66,7 @@ std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& d
   return candidates;
 }
 
-std::vector<KeyframeId> keyframes_near(const MapView& map, const WorldFromCamera& world_from_camera,
+std::vector<KeyframeId> keyframes_near(const StoredMap& map, const WorldFromCamera& world_from_camera,
                                        std::size_t most) {
   constexpr double kMinAxisCosine = 0.5;  // 60 degrees: descriptors rarely survive more
   struct Near {
@@ -84,7 +84,7 @@ std::vector<KeyframeId> keyframes_near(const MapView& map, const WorldFromCamera
   for (std::size_t i = 0; i < map.poses().size(); ++i) {
     const WorldFromCamera& pose = map.poses()[i];
     const double cosine = axis_of(pose).dot(axis_of(world_from_camera));
-    if (cosine < kMinAxisCosine || !map.in_main_part({static_cast<std::int32_t>(i)})) continue;
+    if (cosine < kMinAxisCosine || !map.in_main_component({static_cast<std::int32_t>(i)})) continue;
     const double squared = (pose.translation - world_from_camera.translation).squaredNorm();
     near.push_back({squared / (cosine * cosine), static_cast<std::int32_t>(i)});
   }

@@ -4,20 +4,20 @@
 #include <vector>
 
 #include "cairn/features/place_index.h"
-#include "cairn/map/map_view.h"
+#include "cairn/map/stored_map.h"
 
 namespace cairn {
 
-/// The keyframes of the main part that look most like an image, best first, at most `most`: each descriptor
-/// votes for the keyframes that show a landmark which looks like it, and weighs the less the more they are,
-/// as in PlaceIndex. A keyframe that shows n landmarks gets votes by chance in proportion to n, so its sum is
-/// divided by the root of n, the length of its vector of words (Sivic and Zisserman 2003); scores of one
-/// query can be compared.
-[[nodiscard]] std::vector<PlaceCandidate> find_places(const MapView& map, const Descriptors& descriptors,
+/// The keyframes of the main component that look most like an image, best first, at most `most`: each
+/// descriptor votes for the keyframes that show a landmark which looks like it, and weighs the less the more
+/// they are, as in PlaceIndex. A keyframe that shows n landmarks gets votes by chance in proportion to n, so
+/// its sum is divided by the root of n, the length of its vector of words (Sivic and Zisserman 2003); scores
+/// of one query can be compared.
+[[nodiscard]] std::vector<PlaceCandidate> find_places(const StoredMap& map, const Descriptors& descriptors,
                                                       std::size_t most);
 
 /// The keyframes that were nearest to a pose and looked the same way, nearest first, at most `most`.
-[[nodiscard]] std::vector<KeyframeId> keyframes_near(const MapView& map,
+[[nodiscard]] std::vector<KeyframeId> keyframes_near(const StoredMap& map,
                                                      const WorldFromCamera& world_from_camera,
                                                      std::size_t most);
 

@@ -28,7 +28,7 @@ constexpr std::string_view kMapRemedy = "Copy the map again from where it was ma
 constexpr std::string_view kVersionRemedy =
     "Make the map again, or read it with the version of cairn that made it.";
 
-/// Bytes of a binary file that one checksum covers, so that little has to be read to check a part.
+/// Bytes of a binary file that one checksum covers, so that little has to be read to check a component.
 constexpr std::size_t kBlockBytes = 4096;
 
 /// The end of a binary file: CRC-32 of each block of kBlockBytes, of which the last may be shorter, and the

@@ -19,7 +19,7 @@
 #include "cairn/map/frame_file.h"
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 
 namespace cairn {
 namespace {
@@ -31,19 +31,19 @@ constexpr std::uint32_t kLeftCamera = 1, kRightCamera = 2;
 
 void require_one_world(const fs::path& folder, const MapInfo& info) {
   const auto other = std::find_if(info.keyframes.begin(), info.keyframes.end(), [&](const KeyframeEntry& e) {
-    return e.part != info.keyframes.front().part;
+    return e.component != info.keyframes.front().component;
   });
   if (other != info.keyframes.end())
-    throw InputError(
-        {folder.string(), 0, "a map of one part, as a model has one world",
-         fmt::format("keyframes of part {} and of part {}", info.keyframes.front().part, other->part),
-         "Export a map whose keyframes are all connected."});
+    throw InputError({folder.string(), 0, "a map of one part, as a model has one world",
+                      fmt::format("keyframes of part {} and of part {}", info.keyframes.front().component,
+                                  other->component),
+                      "Export a map whose keyframes are all connected."});
 }
 
 /// InputError unless every keyframe is a frame of the sequence.
 void require_frames(const fs::path& folder, const MapInfo& info, const Sequence& sequence) {
   for (std::size_t i = 0; i < info.keyframes.size(); ++i) {
-    const auto& [frame, stamp_ns, part, checksum] = info.keyframes[i];
+    const auto& [frame, stamp_ns, component, checksum] = info.keyframes[i];
     const auto position = frame.index();
     if (frame.valid() && position < sequence.frames.size() && sequence.frames[position].stamp_ns == stamp_ns)
       continue;
@@ -84,7 +84,7 @@ struct ExportedKeyframe {
   ColmapImage left;
   std::optional<ColmapImage> right;
   std::vector<RecordedFeature> features;
-  std::uint64_t sightings = 0;
+  std::uint64_t observations = 0;
 };
 
 class Exporter {
@@ -106,9 +106,9 @@ class Exporter {
   }
   /// Reads a keyframe and decodes its image; safe to call from several threads.
   [[nodiscard]] ExportedKeyframe keyframe(std::size_t number) const;
-  /// Gathers the track of a landmark; to be called in their order, as `sightings` hands out the next rows.
+  /// Gathers the track of a landmark; to be called in their order, as `observations` hands out the next rows.
   [[nodiscard]] ColmapPoint point(std::size_t number, const StoredLandmark& landmark,
-                                  SightingStream& sightings, RecordedFeatures& features) const;
+                                  ObservationStream& observations, RecordedFeatures& features) const;
 
  private:
   [[nodiscard]] std::uint32_t images_each() const { return rig_.right ? 2 : 1; }
@@ -126,7 +126,7 @@ class Exporter {
   }
   void add_feature(const Observation& seen, LandmarkId landmark, const RgbImage& image,
                    ExportedKeyframe& exported) const;
-  [[noreturn]] void fail_contradiction(std::size_t landmark, const Sighting& sighting) const;
+  [[noreturn]] void fail_contradiction(std::size_t landmark, const ObservationRef& observation) const;
 
   const fs::path& folder_;
   const MapInfo& info_;
@@ -164,7 +164,7 @@ void Exporter::add_feature(const Observation& seen, LandmarkId landmark, const R
       feature.right_v = static_cast<float>(right->y());
     }
   }
-  exported.sightings += landmark.valid() ? 1 : 0;
+  exported.observations += landmark.valid() ? 1 : 0;
   exported.features.push_back(feature);
 }
 
@@ -187,10 +187,10 @@ ExportedKeyframe Exporter::keyframe(std::size_t number) const {
 }
 
 /// Throws because a track and the images contradict each other, for which COLMAP would abort.
-void Exporter::fail_contradiction(std::size_t landmark, const Sighting& sighting) const {
+void Exporter::fail_contradiction(std::size_t landmark, const ObservationRef& observation) const {
   throw InputError({(folder_ / kDescriptorFile).string(), 0,
                     fmt::format("sightings of landmark {} as frames/ has them", landmark),
-                    fmt::format("feature {} of keyframe {}", sighting.feature, sighting.keyframe.value),
+                    fmt::format("feature {} of keyframe {}", observation.feature, observation.keyframe.value),
                     std::string(kMapRemedy)});
 }
 
@@ -201,17 +201,17 @@ double distance_px(const RecordedCamera& camera, const Eigen::Vector3d& point_in
   return (*projected - Eigen::Vector2d(static_cast<double>(u), static_cast<double>(v))).norm();
 }
 
-ColmapPoint Exporter::point(std::size_t number, const StoredLandmark& landmark, SightingStream& sightings,
-                            RecordedFeatures& features) const {
+ColmapPoint Exporter::point(std::size_t number, const StoredLandmark& landmark,
+                            ObservationStream& observations, RecordedFeatures& features) const {
   ColmapPoint point{number + 1, landmark.point_in_world, {}, -1, {}};
   std::vector<Rgb8> colors;
   double sum_px = 0;
-  for (std::uint32_t k = 0; k < landmark.sightings; ++k) {
-    const Sighting sighting = sightings.next()->sighting;
-    const auto keyframe = sighting.keyframe.index();
-    if (!features.has(sighting)) fail_contradiction(number, sighting);
-    const RecordedFeature seen = features.at(sighting);
-    if (seen.landmark != static_cast<std::int32_t>(number)) fail_contradiction(number, sighting);
+  for (std::uint32_t k = 0; k < landmark.observations; ++k) {
+    const ObservationRef observation = observations.next()->observation;
+    const auto keyframe = observation.keyframe.index();
+    if (!features.has(observation)) fail_contradiction(number, observation);
+    const RecordedFeature seen = features.at(observation);
+    if (seen.landmark != static_cast<std::int32_t>(number)) fail_contradiction(number, observation);
     if (seen.index >= 0) {
       colors.push_back(seen.color);
       point.track.emplace_back(left_number(keyframe), seen.index);
@@ -257,7 +257,7 @@ struct Targets {
 /// Returns how many features show a landmark.
 std::uint64_t add_images(const Exporter& exporter, std::size_t keyframes, const Executor& executor,
                          Progress& progress, const Targets& targets) {
-  std::uint64_t sightings = 0;
+  std::uint64_t observations = 0;
   progress.start("exporting", static_cast<std::int64_t>(keyframes), "keyframes");
   executor.ordered_pipeline<ExportedKeyframe>(
       keyframes, [&](std::size_t i) { return exporter.keyframe(i); },
@@ -265,12 +265,12 @@ std::uint64_t add_images(const Exporter& exporter, std::size_t keyframes, const 
         targets.writer.add_image(keyframe.left);
         if (keyframe.right) targets.writer.add_image(*keyframe.right);
         targets.features.add(keyframe.features);
-        sightings += keyframe.sightings;
+        observations += keyframe.observations;
         progress.update(static_cast<std::int64_t>(i) + 1);
         return true;
       });
   progress.finish();
-  return sightings;
+  return observations;
 }
 
 }  // namespace
@@ -286,14 +286,14 @@ void write_colmap_model(const fs::path& map_folder, const Sequence& sequence, co
   ColmapWriter writer(model_folder, exporter.counts());
   RecordedFeatures features(model_folder);
   exporter.add_cameras(writer);
-  const std::uint64_t sightings =
+  const std::uint64_t observations =
       add_images(exporter, info.keyframes.size(), executor, progress, {writer, features});
-  if (sightings != info.sightings)
+  if (observations != info.observations)
     throw InputError({(folder / kPointFile).string(), 0,
-                      fmt::format("{} sightings of landmarks, as frames/ has", sightings),
-                      fmt::format("{}", info.sightings), std::string(kMapRemedy)});
+                      fmt::format("{} sightings of landmarks, as frames/ has", observations),
+                      fmt::format("{}", info.observations), std::string(kMapRemedy)});
   LandmarkStream landmarks(folder, info);
-  SightingStream rows(folder, info);
+  ObservationStream rows(folder, info);
   for (std::size_t i = 0; const auto landmark = landmarks.next(); ++i)
     writer.add_point(exporter.point(i, *landmark, rows, features));
   writer.commit();

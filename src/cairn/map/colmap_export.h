@@ -27,8 +27,8 @@ namespace cairn {
 ///   they show it. ERROR is the mean distance of pixel and projection by the poses of the model; -1 if a
 ///   camera has it behind.
 ///
-/// InputError for a map that cannot be read, has parts without a common world, or is not of this sequence,
-/// for an image that cannot be read, and as colmap_image_name.
+/// InputError for a map that cannot be read, has components without a common world, or is not of this
+/// sequence, for an image that cannot be read, and as colmap_image_name.
 void write_colmap_model(const std::filesystem::path& map_folder, const Sequence& sequence,
                         const std::filesystem::path& model_folder, const Executor& executor,
                         Progress& progress);

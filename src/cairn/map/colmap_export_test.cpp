@@ -75,8 +75,8 @@ class ColmapExport : public testing::Test {
   /// The scene in one world; three keyframes of five are left of the first recording's.
   static Map one_world() {
     Map map = scene_map();
-    map.set_part({3}, 0);
-    map.set_part({4}, 0);
+    map.set_component({3}, 0);
+    map.set_component({4}, 0);
     return map;
   }
 
@@ -256,8 +256,8 @@ Map rectified_map(const Calibration& calibration, const std::vector<FrameFiles>&
   }
   for (std::int32_t i = 0; i < 30; ++i) {
     const LandmarkId id = map.add_landmark(points[static_cast<std::size_t>(i)], {{0}, i});
-    map.add_sighting(id, {{1}, i});
-    map.add_sighting(id, {{2}, i});
+    map.add_observation(id, {{1}, i});
+    map.add_observation(id, {{2}, i});
   }
   return map;
 }

@@ -24,18 +24,18 @@ void RecordedFeatures::add(std::span<const RecordedFeature> features) {
   is_flushed_ = false;
 }
 
-bool RecordedFeatures::has(const Sighting& sighting) const {
-  const auto keyframe = sighting.keyframe.index();
-  return sighting.keyframe.valid() && keyframe + 1 < begins_.size() && sighting.feature >= 0 &&
-         static_cast<std::uint64_t>(sighting.feature) < begins_[keyframe + 1] - begins_[keyframe];
+bool RecordedFeatures::has(const ObservationRef& observation) const {
+  const auto keyframe = observation.keyframe.index();
+  return observation.keyframe.valid() && keyframe + 1 < begins_.size() && observation.feature >= 0 &&
+         static_cast<std::uint64_t>(observation.feature) < begins_[keyframe + 1] - begins_[keyframe];
 }
 
-RecordedFeature RecordedFeatures::at(const Sighting& sighting) {
-  require(has(sighting), "a feature of a keyframe that was added");
+RecordedFeature RecordedFeatures::at(const ObservationRef& observation) {
+  require(has(observation), "a feature of a keyframe that was added");
   if (!is_flushed_ && std::fflush(file_.get()) != 0) fail_writing(path_, "write the file", errno);
   is_flushed_ = true;
   const std::uint64_t number =
-      begins_[sighting.keyframe.index()] + static_cast<std::uint64_t>(sighting.feature);
+      begins_[observation.keyframe.index()] + static_cast<std::uint64_t>(observation.feature);
   RecordedFeature feature;
   const auto got =
       ::pread(::fileno(file_.get()), &feature, sizeof feature, static_cast<off_t>(number * sizeof feature));

@@ -31,9 +31,9 @@ class RecordedFeatures {
   /// Appends the features of the next keyframe.
   void add(std::span<const RecordedFeature> features);
   /// Returns one feature of a keyframe that was added; PreconditionError for one that was not.
-  [[nodiscard]] RecordedFeature at(const Sighting& sighting);
+  [[nodiscard]] RecordedFeature at(const ObservationRef& observation);
   /// Returns whether there is such a feature.
-  [[nodiscard]] bool has(const Sighting& sighting) const;
+  [[nodiscard]] bool has(const ObservationRef& observation) const;
 
  private:
   struct Close {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-Spread spread_of(const std::vector<double>& values) {
+ValueRange range_of(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());
   double mean = 0, squares = 0;
   for (const double value : values) mean += value / count;
@@ -25,9 +25,9 @@ Spread spread_of(const std::vector<double>& values) {
 }
 
 /// By the chord between the unit rays, which is exact where angles are small and a cosine is not.
-double max_ray_angle_deg(const Eigen::Vector3d& point_in_world, std::span<const LandmarkView> views) {
+double max_ray_angle_deg(const Eigen::Vector3d& point_in_world, std::span<const PosedObservation> views) {
   std::vector<Eigen::Vector3d> rays;
-  for (const LandmarkView& view : views) {
+  for (const PosedObservation& view : views) {
     const Eigen::Vector3d centre_in_world = view.camera_from_world.inverse().translation;
     rays.push_back((centre_in_world - point_in_world).normalized());
   }
@@ -48,11 +48,11 @@ double squared_distance_px(const Rig& rig, const Eigen::Vector3d& point_in_camer
 }  // namespace
 
 LandmarkIndicators indicators_of(const Rig& rig, const Eigen::Vector3d& point_in_world,
-                                 std::span<const LandmarkView> views) {
+                                 std::span<const PosedObservation> views) {
   require(!views.empty(), "a landmark is seen in one view at least");
   std::vector<double> distances, laterals, depths, angles;
   double squared_px = 0;
-  for (const LandmarkView& view : views) {
+  for (const PosedObservation& view : views) {
     const Eigen::Vector3d point_in_camera = view.camera_from_world * point_in_world;
     const double lateral = std::hypot(point_in_camera.x(), point_in_camera.y());
     distances.push_back(point_in_camera.norm());
@@ -64,10 +64,10 @@ LandmarkIndicators indicators_of(const Rig& rig, const Eigen::Vector3d& point_in
   const auto count = static_cast<double>(views.size());
   return {static_cast<int>(views.size()),
           std::sqrt(squared_px / count),
-          spread_of(distances),
-          spread_of(laterals),
-          spread_of(depths),
-          spread_of(angles),
+          range_of(distances),
+          range_of(laterals),
+          range_of(depths),
+          range_of(angles),
           max_ray_angle_deg(point_in_world, views)};
 }
 

@@ -13,36 +13,36 @@ namespace {
 
 constexpr Rig kRig{100, 100, 50, 50, 0.1};
 
-LandmarkView view_from(double x, double u, double v) {
+PosedObservation view_from(double x, double u, double v) {
   const WorldFromCamera world_from_camera({Eigen::Quaterniond::Identity(), {x, 0, 0}});
   return {world_from_camera.inverse(), {u, v}};
 }
 
 TEST(Indicators, tell_how_a_landmark_was_seen) {
   // The second camera is 3 m further right: straight before the point.
-  const std::vector<LandmarkView> views{view_from(0, 125, 50), view_from(3, 50, 52)};
+  const std::vector<PosedObservation> views{view_from(0, 125, 50), view_from(3, 50, 52)};
   const LandmarkIndicators found = indicators_of(kRig, {3, 0, 4}, views);
   const double angle = std::atan2(3.0, 4.0) * 180 / M_PI;
   EXPECT_EQ(found.frames, 2);
   EXPECT_NEAR(found.rms_px, std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(found.max_ray_angle_deg, angle, 1e-9);
-  const auto expect_spread = [](const Spread& spread, double low, double high) {
-    EXPECT_NEAR(spread.mean, (low + high) / 2, 1e-12);
-    EXPECT_NEAR(spread.min, low, 1e-12);
-    EXPECT_NEAR(spread.max, high, 1e-12);
-    EXPECT_NEAR(spread.std, (high - low) / 2, 1e-12);
+  const auto expect_range = [](const ValueRange& range, double low, double high) {
+    EXPECT_NEAR(range.mean, (low + high) / 2, 1e-12);
+    EXPECT_NEAR(range.min, low, 1e-12);
+    EXPECT_NEAR(range.max, high, 1e-12);
+    EXPECT_NEAR(range.std, (high - low) / 2, 1e-12);
   };
-  expect_spread(found.distance, 4, 5);
-  expect_spread(found.lateral, 0, 3);
-  expect_spread(found.depth, 4, 4);
-  expect_spread(found.angle_deg, 0, angle);
+  expect_range(found.distance, 4, 5);
+  expect_range(found.lateral, 0, 3);
+  expect_range(found.depth, 4, 4);
+  expect_range(found.angle_deg, 0, angle);
 }
 
 TEST(Indicators, the_largest_angle_is_of_any_two_rays) {
-  const std::vector<LandmarkView> views{view_from(-1, 0, 0), view_from(0, 0, 0), view_from(1, 0, 0)};
+  const std::vector<PosedObservation> views{view_from(-1, 0, 0), view_from(0, 0, 0), view_from(1, 0, 0)};
   EXPECT_NEAR(indicators_of(kRig, {0, 0, 1}, views).max_ray_angle_deg, 90, 1e-9);
   EXPECT_EQ(indicators_of(kRig, {0, 0, 1}, std::vector{views[1]}).max_ray_angle_deg, 0);
-  const std::vector<LandmarkView> close{view_from(0, 0, 0), view_from(1e-9, 0, 0)};
+  const std::vector<PosedObservation> close{view_from(0, 0, 0), view_from(1e-9, 0, 0)};
   EXPECT_NEAR(indicators_of(kRig, {0, 0, 1}, close).max_ray_angle_deg, 1e-9 * 180 / M_PI, 1e-12);
 }
 

@@ -27,23 +27,23 @@ double largest_std(const StoredLandmark& landmark) {
                                        : largest_std(landmark.covariance);
 }
 
-std::size_t sighting_bytes(const DescriptorKind& kind) {
-  return kSightingHead + padded(kind.bytes);
+std::size_t observation_bytes(const DescriptorKind& kind) {
+  return kObservationHead + padded(kind.bytes);
 }
 
-BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t sightings) {
+BinaryWriter begin_point_file(std::uint32_t landmarks, std::uint64_t observations) {
   BinaryWriter writer(kPointKind);
   writer.put(landmarks);
-  writer.put(sightings);
+  writer.put(observations);
   return writer;
 }
 
-BinaryWriter begin_descriptor_file(const DescriptorKind& kind, std::uint64_t sightings) {
+BinaryWriter begin_descriptor_file(const DescriptorKind& kind, std::uint64_t observations) {
   BinaryWriter writer(kDescriptorKind);
   writer.put(kind.bytes);
   writer.put(static_cast<std::uint32_t>(kind.norm));
-  writer.put(static_cast<std::uint32_t>(sighting_bytes(kind)));
-  writer.put(sightings);
+  writer.put(static_cast<std::uint32_t>(observation_bytes(kind)));
+  writer.put(observations);
   return writer;
 }
 
@@ -51,16 +51,16 @@ void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWrit
   require(landmark.point_in_world.allFinite() && is_covariance(landmark.covariance),
           "a landmark's point is finite, its covariance symmetric");
   writer.put(number);
-  writer.put(landmark.sightings);
+  writer.put(landmark.observations);
   writer.put(landmark.first_row);
   for (const double coordinate : landmark.point_in_world) writer.put(coordinate);
   for (const double entry : landmark.covariance.reshaped()) writer.put(entry);
 }
 
-void put_sighting(const Sighting& sighting, const Keypoint& keypoint, const std::uint8_t* descriptor,
-                  const DescriptorKind& kind, ByteWriter& writer) {
-  writer.put(sighting.keyframe.value);
-  writer.put(sighting.feature);
+void put_observation(const ObservationRef& observation, const Keypoint& keypoint,
+                     const std::uint8_t* descriptor, const DescriptorKind& kind, ByteWriter& writer) {
+  writer.put(observation.keyframe.value);
+  writer.put(observation.feature);
   writer.put(keypoint.size);
   writer.put(keypoint.sigma_px);
   writer.put_bytes(descriptor, kind.bytes);
@@ -75,12 +75,12 @@ std::vector<StoredLandmark> read_point_file(const std::filesystem::path& folder,
   return landmarks;
 }
 
-StoredSightings read_descriptor_file(const std::filesystem::path& folder, const MapInfo& info) {
-  SightingStream stream(folder, info);
-  StoredSightings stored{{}, Descriptors(info.descriptor.norm, info.descriptor.bytes, info.sightings)};
+StoredObservations read_descriptor_file(const std::filesystem::path& folder, const MapInfo& info) {
+  ObservationStream stream(folder, info);
+  StoredObservations stored{{}, Descriptors(info.descriptor.norm, info.descriptor.bytes, info.observations)};
   while (const auto row = stream.next()) {
-    std::memcpy(stored.descriptors.row(stored.sightings.size()), row->descriptor, info.descriptor.bytes);
-    stored.sightings.push_back(row->sighting);
+    std::memcpy(stored.descriptors.row(stored.observations.size()), row->descriptor, info.descriptor.bytes);
+    stored.observations.push_back(row->observation);
   }
   return stored;
 }

@@ -27,11 +27,11 @@ StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const Map
   if (found_number != number || found_first != first)
     reader.fail(fmt::format("landmark {} with sightings from {}", number, first),
                 fmt::format("landmark {} with sightings from {}", found_number, found_first));
-  if (count == 0 || count > info.sightings - first)
-    reader.fail(fmt::format("1 to {} sightings of landmark {}", info.sightings - first, number),
+  if (count == 0 || count > info.observations - first)
+    reader.fail(fmt::format("1 to {} sightings of landmark {}", info.observations - first, number),
                 fmt::format("{}", count));
   landmark.first_row = first;
-  landmark.sightings = count;
+  landmark.observations = count;
   for (double& coordinate : landmark.point_in_world) coordinate = reader.get<double>();
   for (double& entry : landmark.covariance.reshaped()) entry = reader.get<double>();
   if (!landmark.point_in_world.allFinite() || !is_covariance(landmark.covariance))
@@ -44,39 +44,40 @@ StoredLandmark get_landmark(std::uint32_t number, std::uint64_t first, const Map
 LandmarkStream::LandmarkStream(const std::filesystem::path& folder, const MapInfo& info)
     : info_(info), reader_(open_announced(folder, info, kPointFile, kPointKind)) {
   expect_count(reader_, info.landmarks, reader_.get<std::uint32_t>(), "landmarks");
-  expect_count(reader_, info.sightings, reader_.get<std::uint64_t>(), "sightings");
+  expect_count(reader_, info.observations, reader_.get<std::uint64_t>(), "sightings");
   reader_.expect_bytes(info.landmarks, kLandmarkBytes);
 }
 
 std::optional<StoredLandmark> LandmarkStream::next() {
   if (number_ == info_.landmarks) {
-    expect_count(reader_, info_.sightings, first_row_, "sightings of all landmarks");
+    expect_count(reader_, info_.observations, first_row_, "sightings of all landmarks");
     return {};
   }
   const StoredLandmark landmark = get_landmark(number_, first_row_, info_, reader_);
-  first_row_ += landmark.sightings;
+  first_row_ += landmark.observations;
   ++number_;
   return landmark;
 }
 
-SightingStream::SightingStream(const std::filesystem::path& folder, const MapInfo& info)
+ObservationStream::ObservationStream(const std::filesystem::path& folder, const MapInfo& info)
     : info_(info), reader_(open_announced(folder, info, kDescriptorFile, kDescriptorKind)) {
   get_descriptor_kind(info.descriptor, reader_);
-  const std::size_t stride = sighting_bytes(info.descriptor);
+  const std::size_t stride = observation_bytes(info.descriptor);
   expect_count(reader_, stride, reader_.get<std::uint32_t>(), "bytes a record");
-  expect_count(reader_, info.sightings, reader_.get<std::uint64_t>(), "sightings");
-  reader_.expect_bytes(info.sightings, stride);
+  expect_count(reader_, info.observations, reader_.get<std::uint64_t>(), "sightings");
+  reader_.expect_bytes(info.observations, stride);
 }
 
-std::optional<SightingStream::Row> SightingStream::next() {
-  if (row_ == info_.sightings) return {};
+std::optional<ObservationStream::Row> ObservationStream::next() {
+  if (row_ == info_.observations) return {};
   const KeyframeId keyframe{reader_.get<std::int32_t>()};
   const std::int32_t feature = reader_.get<std::int32_t>();
   if (!keyframe.valid() || keyframe.index() >= info_.keyframes.size())
     reader_.fail(fmt::format("a keyframe below {} in row {}", info_.keyframes.size(), row_),
                  fmt::format("{}", keyframe.value));
   // Size and sigma, which frames/ has, too, come before the descriptor.
-  const char* rest = reader_.get_bytes(sighting_bytes(info_.descriptor) - sizeof keyframe - sizeof feature);
+  const char* rest =
+      reader_.get_bytes(observation_bytes(info_.descriptor) - sizeof keyframe - sizeof feature);
   ++row_;
   return Row{{keyframe, feature}, rest + 2 * sizeof(float)};
 }

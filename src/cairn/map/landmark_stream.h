@@ -26,15 +26,15 @@ class LandmarkStream {
   std::uint64_t first_row_ = 0;  // that it has to have
 };
 
-/// The same for the rows of Descriptor.bin: the sightings, landmark by landmark. Keyframes lie in their
+/// The same for the rows of Descriptor.bin: the observations, landmark by landmark. Keyframes lie in their
 /// range.
-class SightingStream {
+class ObservationStream {
  public:
   struct Row {
-    Sighting sighting;
+    ObservationRef observation;
     const char* descriptor;  ///< as many bytes as the kind has; valid until the next row
   };
-  SightingStream(const std::filesystem::path& folder, const MapInfo& info);
+  ObservationStream(const std::filesystem::path& folder, const MapInfo& info);
   [[nodiscard]] std::optional<Row> next();
 
  private:

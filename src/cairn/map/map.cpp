@@ -8,10 +8,11 @@
 namespace cairn {
 namespace {
 
-std::vector<Sighting>::const_iterator find_sighting(const Landmark& landmark, KeyframeId keyframe) {
-  const auto place = std::lower_bound(landmark.sightings.begin(), landmark.sightings.end(), keyframe,
-                                      [](const Sighting& s, KeyframeId id) { return s.keyframe < id; });
-  return place != landmark.sightings.end() && place->keyframe == keyframe ? place : landmark.sightings.end();
+std::vector<ObservationRef>::const_iterator find_observation(const Landmark& landmark, KeyframeId keyframe) {
+  const auto place = std::lower_bound(landmark.observations.begin(), landmark.observations.end(), keyframe,
+                                      [](const ObservationRef& s, KeyframeId id) { return s.keyframe < id; });
+  return place != landmark.observations.end() && place->keyframe == keyframe ? place
+                                                                             : landmark.observations.end();
 }
 
 }  // namespace
@@ -39,13 +40,13 @@ Rigid3 Map::world_from_camera(KeyframeId id) const {
   return (*this)[id].world_from_camera * ancestor_from_camera;
 }
 
-std::int32_t Map::part_of(KeyframeId id) const {
+std::int32_t Map::component_of(KeyframeId id) const {
   while ((*this)[id].erased) id = (*this)[id].anchor;
-  return (*this)[id].part;
+  return (*this)[id].component;
 }
 
 KeyframeId Map::add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_camera, KeyframeId parent,
-                             std::int32_t part) {
+                             std::int32_t component) {
   const KeyframeId id{static_cast<std::int32_t>(keyframes_.size())};
   require(parent < id, "a keyframe's parent is earlier");
   Keyframe keyframe;
@@ -54,49 +55,52 @@ KeyframeId Map::add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_
   keyframe.observed = std::move(observed);
   keyframe.world_from_camera = world_from_camera;
   keyframe.parent = parent;
-  keyframe.part = part;
+  keyframe.component = component;
   keyframes_.push_back(std::move(keyframe));
   return id;
 }
 
-LandmarkId Map::add_landmark(const Eigen::Vector3d& point_in_world, Sighting first) {
+LandmarkId Map::add_landmark(const Eigen::Vector3d& point_in_world, ObservationRef first) {
   const LandmarkId id{static_cast<std::int32_t>(landmarks_.size())};
   landmarks_.push_back({id, point_in_world, {}});
-  add_sighting(id, first);
+  add_observation(id, first);
   return id;
 }
 
-void Map::add_sighting(LandmarkId id, Sighting sighting) {
-  LandmarkId& shown = keyframe(sighting.keyframe).landmarks.at(static_cast<std::size_t>(sighting.feature));
+void Map::add_observation(LandmarkId id, ObservationRef observation) {
+  LandmarkId& shown =
+      keyframe(observation.keyframe).landmarks.at(static_cast<std::size_t>(observation.feature));
   require(!shown.valid(), "a feature shows one landmark");
   Landmark& seen = landmark(id);
-  require(find_sighting(seen, sighting.keyframe) == seen.sightings.end(), "a keyframe shows a landmark once");
+  require(find_observation(seen, observation.keyframe) == seen.observations.end(),
+          "a keyframe shows a landmark once");
   shown = id;
-  seen.sightings.insert(std::upper_bound(seen.sightings.begin(), seen.sightings.end(), sighting), sighting);
+  seen.observations.insert(std::upper_bound(seen.observations.begin(), seen.observations.end(), observation),
+                           observation);
 }
 
-void Map::remove_sighting(LandmarkId id, KeyframeId from) {
+void Map::remove_observation(LandmarkId id, KeyframeId from) {
   Landmark& seen = landmark(id);
-  const auto place = find_sighting(seen, from);
-  if (place == seen.sightings.end()) return;
+  const auto place = find_observation(seen, from);
+  if (place == seen.observations.end()) return;
   keyframe(from).landmarks[static_cast<std::size_t>(place->feature)] = {};
-  seen.sightings.erase(place);
+  seen.observations.erase(place);
 }
 
 void Map::merge(LandmarkId gone, LandmarkId kept) {
   require(gone != kept, "two landmarks to merge");
-  const std::vector<Sighting> sightings = (*this)[gone].sightings;
+  const std::vector<ObservationRef> observations = (*this)[gone].observations;
   erase(gone);
-  for (const Sighting& sighting : sightings) {
-    if (find_sighting((*this)[kept], sighting.keyframe) == (*this)[kept].sightings.end())
-      add_sighting(kept, sighting);
+  for (const ObservationRef& observation : observations) {
+    if (find_observation((*this)[kept], observation.keyframe) == (*this)[kept].observations.end())
+      add_observation(kept, observation);
   }
 }
 
 void Map::erase(LandmarkId id) {
-  for (const Sighting& sighting : landmark(id).sightings)
-    keyframe(sighting.keyframe).landmarks[static_cast<std::size_t>(sighting.feature)] = {};
-  landmark(id).sightings.clear();
+  for (const ObservationRef& observation : landmark(id).observations)
+    keyframe(observation.keyframe).landmarks[static_cast<std::size_t>(observation.feature)] = {};
+  landmark(id).observations.clear();
 }
 
 void Map::erase(KeyframeId id) {
@@ -107,7 +111,7 @@ void Map::erase(KeyframeId id) {
   while ((*this)[gone.anchor].erased) gone.anchor = (*this)[gone.anchor].anchor;
   gone.anchor_from_camera = (*this)[gone.anchor].world_from_camera.inverse() * gone.world_from_camera;
   for (const LandmarkId shown : std::vector<LandmarkId>(gone.landmarks))
-    if (shown.valid()) remove_sighting(shown, id);
+    if (shown.valid()) remove_observation(shown, id);
   gone.landmarks.clear();
   gone.observed = {gone.observed.frame, gone.observed.stamp_ns, {}, {}, {}};
   gone.erased = true;
@@ -121,8 +125,8 @@ void Map::move(LandmarkId id, const Eigen::Vector3d& point_in_world) {
   landmark(id).point_in_world = point_in_world;
 }
 
-void Map::set_part(KeyframeId id, std::int32_t part) {
-  keyframe(id).part = part;
+void Map::set_component(KeyframeId id, std::int32_t component) {
+  keyframe(id).component = component;
 }
 
 void Map::end_recording() {

@@ -12,18 +12,18 @@
 namespace cairn {
 
 /// Feature `feature` of a keyframe shows a landmark.
-struct Sighting {
+struct ObservationRef {
   KeyframeId keyframe;
   std::int32_t feature = -1;
-  auto operator<=>(const Sighting&) const = default;  // NOLINT(modernize-use-nullptr): as Id
+  auto operator<=>(const ObservationRef&) const = default;  // NOLINT(modernize-use-nullptr): as Id
 };
 
 struct Landmark {
   LandmarkId id;
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
-  std::vector<Sighting> sightings;  ///< by keyframe, increasing, one for each; none: erased
+  std::vector<ObservationRef> observations;  ///< by keyframe, increasing, one for each; none: erased
 
-  [[nodiscard]] bool erased() const { return sightings.empty(); }
+  [[nodiscard]] bool erased() const { return observations.empty(); }
 };
 
 struct Keyframe {
@@ -34,12 +34,13 @@ struct Keyframe {
   KeyframeId parent;                  ///< an earlier keyframe that it was placed by; not valid for a first
   KeyframeId anchor;                  ///< of an erased one: the ancestor that was left when it was erased,
   Rigid3 anchor_from_camera;          ///< and where it was then
-  std::int32_t part = 0;              ///< keyframes of different parts have no common world; ask Map::part_of
-  bool erased = false;                ///< redundant: only its place is kept, relative to its anchor
+  std::int32_t component =
+      0;                ///< keyframes of different components have no common world; ask Map::component_of
+  bool erased = false;  ///< redundant: only its place is kept, relative to its anchor
 };
 
 /// Keyframes and the landmarks they show, each knowing the other. Ids are positions and stay valid: what is
-/// erased leaves a gap. The world of part 0 is the first keyframe's camera frame.
+/// erased leaves a gap. The world of component 0 is the first keyframe's camera frame.
 class Map {
  public:
   Map() = default;
@@ -65,25 +66,25 @@ class Map {
   [[nodiscard]] std::vector<LandmarkId> landmark_ids() const;
   /// Of any keyframe, also an erased one.
   [[nodiscard]] Rigid3 world_from_camera(KeyframeId id) const;
-  /// The part that a keyframe belongs to, also an erased one.
-  [[nodiscard]] std::int32_t part_of(KeyframeId id) const;
+  /// The component that a keyframe belongs to, also an erased one.
+  [[nodiscard]] std::int32_t component_of(KeyframeId id) const;
 
   KeyframeId add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_camera, KeyframeId parent,
-                          std::int32_t part);
+                          std::int32_t component);
   /// A landmark that `first` shows; the feature shows no other.
-  LandmarkId add_landmark(const Eigen::Vector3d& point_in_world, Sighting first);
+  LandmarkId add_landmark(const Eigen::Vector3d& point_in_world, ObservationRef first);
   /// The feature shows no other landmark, the keyframe no other feature of this one.
-  void add_sighting(LandmarkId landmark, Sighting sighting);
-  /// Does nothing where there is no such sighting. A landmark without sightings is erased.
-  void remove_sighting(LandmarkId landmark, KeyframeId keyframe);
-  /// `gone` becomes `kept`: its sightings go over, except in keyframes that show both, where they end.
+  void add_observation(LandmarkId landmark, ObservationRef observation);
+  /// Does nothing where there is no such observation. A landmark without observations is erased.
+  void remove_observation(LandmarkId landmark, KeyframeId keyframe);
+  /// `gone` becomes `kept`: its observations go over, except in keyframes that show both, where they end.
   void merge(LandmarkId gone, LandmarkId kept);
   void erase(LandmarkId landmark);
-  /// Its sightings end; its place stays known relative to its anchor.
+  /// Its observations end; its place stays known relative to its anchor.
   void erase(KeyframeId keyframe);
   void move(KeyframeId keyframe, const Rigid3& world_from_camera);
   void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);
-  void set_part(KeyframeId keyframe, std::int32_t part);
+  void set_component(KeyframeId keyframe, std::int32_t component);
   /// The recording that the keyframes are of ends here: their FrameIds are valid no more, as the next one
   /// counts its frames from 0 again.
   void end_recording();

@@ -9,8 +9,8 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/map/binary_file.h"
-#include "cairn/map/map_figures.h"
 #include "cairn/map/map_file.h"
+#include "cairn/map/map_statistics.h"
 #include "cairn/testing/core/temporary_folder.h"
 #include "cairn/testing/map/scene_map.h"
 
@@ -104,7 +104,7 @@ void expect_refused(const std::vector<BadMap>& cases) {
     make(folder.path() / "map");
     EXPECT_NE(message_for(folder.path() / "map").find(says), std::string::npos)
         << what << ": " << message_for(folder.path() / "map");
-    EXPECT_THROW((void)read_map_figures(folder.path() / "map"), InputError) << what;
+    EXPECT_THROW((void)read_map_statistics(folder.path() / "map"), InputError) << what;
   }
 }
 

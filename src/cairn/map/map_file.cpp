@@ -56,9 +56,9 @@ std::vector<LandmarkId> renumbered(const std::vector<LandmarkId>& landmarks, con
   return numbers;
 }
 
-/// The view of a sighting as a reader of the files will have it, so that a map that was read gives the same
-/// table.
-LandmarkView stored_view(const Keyframe& keyframe, std::size_t feature) {
+/// The view of an observation as a reader of the files will have it, so that a map that was read gives the
+/// same table.
+PosedObservation stored_view(const Keyframe& keyframe, std::size_t feature) {
   const WorldFromCamera world_from_camera(
       {unit_rotation(keyframe.world_from_camera.rotation), keyframe.world_from_camera.translation});
   return {world_from_camera.inverse(), as_stored(keyframe.observed.observations[feature])};
@@ -66,18 +66,19 @@ LandmarkView stored_view(const Keyframe& keyframe, std::size_t feature) {
 
 FinishedLandmark finished(const Map& map, const Landmark& landmark, const Eigen::Matrix3d& covariance,
                           const Selection& selection, const DescriptorKind& kind) {
-  FinishedLandmark result{landmark.point_in_world, as_covariance(covariance), landmark.sightings, {}, {}, {}};
-  result.descriptors = Descriptors(kind.norm, kind.bytes, landmark.sightings.size());
-  std::vector<LandmarkView> views;
-  for (std::size_t i = 0; i < landmark.sightings.size(); ++i) {
-    const Keyframe& keyframe = map[landmark.sightings[i].keyframe];
-    const auto feature = static_cast<std::size_t>(landmark.sightings[i].feature);
+  FinishedLandmark result{
+      landmark.point_in_world, as_covariance(covariance), landmark.observations, {}, {}, {}};
+  result.descriptors = Descriptors(kind.norm, kind.bytes, landmark.observations.size());
+  std::vector<PosedObservation> views;
+  for (std::size_t i = 0; i < landmark.observations.size(); ++i) {
+    const Keyframe& keyframe = map[landmark.observations[i].keyframe];
+    const auto feature = static_cast<std::size_t>(landmark.observations[i].feature);
     const Features& features = keyframe.observed.features;
     require(feature < features.keypoints.size(), "a sighting is of a feature with a keypoint");
     views.push_back(stored_view(keyframe, feature));
     result.keypoints.push_back(features.keypoints[feature]);
     std::memcpy(result.descriptors.row(i), features.descriptors.row(feature), kind.bytes);
-    result.sightings[i].keyframe = selection.keyframe_numbers[landmark.sightings[i].keyframe.index()];
+    result.observations[i].keyframe = selection.keyframe_numbers[landmark.observations[i].keyframe.index()];
   }
   result.indicators = indicators_of(map.rig(), landmark.point_in_world, views);
   return result;
@@ -96,7 +97,7 @@ void write_map(const std::filesystem::path& folder, const Map& map,
   MapWriter writer(output.work(), header);
   for (const KeyframeId id : selection.keyframes)
     writer.add_frame(map[id].observed, renumbered(map[id].landmarks, selection),
-                     WorldFromCamera(map[id].world_from_camera), map[id].part);
+                     WorldFromCamera(map[id].world_from_camera), map[id].component);
   for (const LandmarkId id : selection.landmarks) {
     const Eigen::Matrix3d covariance =
         covariances.empty() ? Eigen::Matrix3d::Zero() : covariances[id.index()];

@@ -32,8 +32,8 @@ void write_map(const std::filesystem::path& folder, const Map& map,
 
 /// The map in a folder that find_map_folder finds. Writing it gives the same bytes, if the same covariances
 /// are given. Observations have the precision of floats, keypoints no response; a keyframe's parent is the
-/// earlier one of its part that shows most of the same landmarks (the latest of several, the one before it
-/// where none shows any). InputError names the file where one is missing, damaged, of another version, or
+/// earlier one of its component that shows most of the same landmarks (the latest of several, the one before
+/// it where none shows any). InputError names the file where one is missing, damaged, of another version, or
 /// does not fit the others.
 [[nodiscard]] Map read_map(const std::filesystem::path& folder);
 

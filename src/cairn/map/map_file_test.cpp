@@ -45,7 +45,7 @@ Map small_map() {
     map.add_keyframe(std::move(frame), {Eigen::Quaterniond::Identity(), {0.0, 0.25, k * 1e-12}}, {k - 1}, 0);
   }
   const LandmarkId landmark = map.add_landmark({0.5, -1, 2}, {{0}, 0});
-  map.add_sighting(landmark, {{1}, 1});
+  map.add_observation(landmark, {{1}, 1});
   return map;
 }
 
@@ -90,9 +90,9 @@ TEST(MapFile, points_have_the_documented_layout) {
   EXPECT_EQ(bytes.substr(0, 8), "CAIRNPNT");
   EXPECT_EQ(at<std::uint32_t>(bytes, 8), 3U);   // version
   EXPECT_EQ(at<std::uint32_t>(bytes, 12), 1U);  // landmarks
-  EXPECT_EQ(at<std::uint64_t>(bytes, 16), 2U);  // sightings
+  EXPECT_EQ(at<std::uint64_t>(bytes, 16), 2U);  // observations
   EXPECT_EQ(at<std::uint32_t>(bytes, 24), 0U);  // number
-  EXPECT_EQ(at<std::uint32_t>(bytes, 28), 2U);  // its sightings
+  EXPECT_EQ(at<std::uint32_t>(bytes, 28), 2U);  // its observations
   EXPECT_EQ(at<std::uint64_t>(bytes, 32), 0U);  // row of the first
   const double doubles[] = {0.5, -1, 2, 9, 1, 2, 1, 4, 3, 2, 3, 8};
   for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(at<double>(bytes, 40 + 8 * i), doubles[i]) << i;

@@ -71,7 +71,7 @@ Json header_members(const MapInfo& info, std::size_t keyframes) {
   members["counts"] = {{"keyframes", keyframes},
                        {"features", info.features},
                        {"landmarks", info.landmarks},
-                       {"sightings", info.sightings}};
+                       {"sightings", info.observations}};
   return members;
 }
 
@@ -116,7 +116,7 @@ std::string format_keyframe_entry(KeyframeId number, const KeyframeEntry& entry,
   const Json json{{"file", frame_file_name(number, descriptor)},
                   {"frame", entry.frame.value},
                   {"stamp_ns", entry.stamp_ns},
-                  {"part", entry.part},
+                  {"part", entry.component},
                   {"crc32", entry.checksum}};
   return (number.value == 0 ? "\n    " : ",\n    ") + on_one_line(json);
 }

@@ -37,7 +37,7 @@ constexpr const char* kPlaceFile = "Place.bin";
 struct KeyframeEntry {
   FrameId frame;  ///< position in its sequence; not valid where that is not known any more
   std::int64_t stamp_ns = 0;
-  std::int32_t part = 0;
+  std::int32_t component = 0;
   std::uint32_t checksum = 0;  ///< that its file in frames/ ends with
 };
 
@@ -49,8 +49,8 @@ void get_descriptor_kind(const DescriptorKind& kind, BinaryReader& reader);
 struct MapInfo : MapHeader {
   std::vector<KeyframeEntry> keyframes;
   std::uint32_t landmarks = 0;
-  std::uint64_t features = 0;   ///< of all keyframes
-  std::uint64_t sightings = 0;  ///< of all landmarks
+  std::uint64_t features = 0;      ///< of all keyframes
+  std::uint64_t observations = 0;  ///< of all landmarks
   /// By name, of the files beside map.json: of a text the CRC-32 of its bytes, of a binary file the checksum
   /// that it ends with.
   std::map<std::string, std::uint32_t> checksums;

@@ -163,7 +163,7 @@ class MapInfoReader {
                               whole_member<std::int64_t>(json, "stamp_ns"),
                               whole_member<std::int32_t>(json, "part"),
                               whole_member<std::uint32_t>(json, "crc32")};
-    if (entry.part < 0) fail("parts from 0 up", fmt::format("{}", entry.part));
+    if (entry.component < 0) fail("parts from 0 up", fmt::format("{}", entry.component));
     return entry;
   }
 
@@ -173,7 +173,7 @@ class MapInfoReader {
            fmt::format("a list of {}", info.keyframes.size()));
     info.landmarks = whole_member<std::uint32_t>(json, "landmarks");
     info.features = whole_member<std::uint64_t>(json, "features");
-    info.sightings = whole_member<std::uint64_t>(json, "sightings");
+    info.observations = whole_member<std::uint64_t>(json, "sightings");
   }
 
   std::filesystem::path path_;

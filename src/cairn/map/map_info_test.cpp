@@ -20,7 +20,7 @@ MapInfo small_info() {
   info.keyframes = {{{-1}, 1'205'031'453'359'684'000, 0, 4'294'967'295}};
   info.landmarks = 1;
   info.features = 5'000'000'000;
-  info.sightings = 2;
+  info.observations = 2;
   info.checksums = {{"Point.bin", 7}, {"poses.txt", 0}};
   return info;
 }
@@ -80,7 +80,7 @@ TEST(MapInfo, is_read_as_it_was_written) {
   EXPECT_EQ(read.keyframes[0].stamp_ns, info.keyframes[0].stamp_ns);
   EXPECT_EQ(read.keyframes[0].checksum, info.keyframes[0].checksum);
   EXPECT_EQ(read.keyframes[1].frame, FrameId{9});
-  EXPECT_EQ(read.keyframes[1].part, info.keyframes[1].part);
+  EXPECT_EQ(read.keyframes[1].component, info.keyframes[1].component);
 }
 
 TEST(MapInfo, holds_any_text) {

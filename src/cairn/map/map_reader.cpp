@@ -10,7 +10,7 @@
 #include "cairn/map/landmark_files.h"
 #include "cairn/map/map_file.h"
 #include "cairn/map/map_info.h"
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 #include "cairn/map/place_layout.h"
 
 namespace cairn {
@@ -25,7 +25,7 @@ struct MapFiles {
   std::vector<WorldFromCamera> poses;
   std::vector<FrameFile> frames;
   std::vector<StoredLandmark> landmarks;
-  StoredSightings sightings;
+  StoredObservations observations;
 };
 
 [[noreturn]] void fail(const fs::path& path, std::string expected, std::string found) {
@@ -53,35 +53,35 @@ MapFiles read_files(const fs::path& folder) {
   check_map_text(folder, files.info, kUvlistFile);
   files.frames = read_frames(folder, files.info);
   files.landmarks = read_point_file(folder, files.info);
-  files.sightings = read_descriptor_file(folder, files.info);
+  files.observations = read_descriptor_file(folder, files.info);
   check_sealed_file(folder / kPlaceFile, kPlaceKind, files.info.checksum_of(kPlaceFile));
   return files;
 }
 
-/// The feature of a sighting shows this landmark, and looks as Descriptor.bin says.
-void check_sighting(const MapFiles& files, std::size_t landmark, std::size_t row) {
-  const Sighting& sighting = files.sightings.sightings[row];
-  const FrameFile& frame = files.frames[sighting.keyframe.index()];
-  const auto feature = static_cast<std::size_t>(sighting.feature);
-  const bool shows = sighting.feature >= 0 && feature < frame.landmarks.size() &&
+/// The feature of an observation shows this landmark, and looks as Descriptor.bin says.
+void check_observation(const MapFiles& files, std::size_t landmark, std::size_t row) {
+  const ObservationRef& observation = files.observations.observations[row];
+  const FrameFile& frame = files.frames[observation.keyframe.index()];
+  const auto feature = static_cast<std::size_t>(observation.feature);
+  const bool shows = observation.feature >= 0 && feature < frame.landmarks.size() &&
                      frame.landmarks[feature].value == static_cast<std::int64_t>(landmark);
   if (!shows)
     fail(files.folder / kPointFile,
-         fmt::format("landmark {} where keyframe {} shows it", landmark, sighting.keyframe.value),
-         fmt::format("it at feature {}", sighting.feature));
+         fmt::format("landmark {} where keyframe {} shows it", landmark, observation.keyframe.value),
+         fmt::format("it at feature {}", observation.feature));
   const Descriptors& described = frame.observed.features.descriptors;
-  if (std::memcmp(described.row(feature), files.sightings.descriptors.row(row), described.bytes()) != 0)
+  if (std::memcmp(described.row(feature), files.observations.descriptors.row(row), described.bytes()) != 0)
     fail(files.folder / kDescriptorFile, fmt::format("in row {} the descriptor of frames/", row), "another");
 }
 
 /// Point.bin, Descriptor.bin and frames/ say the same.
-void check_sightings(const MapFiles& files) {
+void check_observations(const MapFiles& files) {
   for (std::size_t i = 0; i < files.landmarks.size(); ++i) {
     KeyframeId before;
     const StoredLandmark& landmark = files.landmarks[i];
-    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.sightings; ++row) {
-      check_sighting(files, i, row);
-      const KeyframeId keyframe = files.sightings.sightings[row].keyframe;
+    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.observations; ++row) {
+      check_observation(files, i, row);
+      const KeyframeId keyframe = files.observations.observations[row].keyframe;
       if (keyframe <= before)
         fail(files.folder / kPointFile, fmt::format("increasing keyframes of landmark {}", i),
              fmt::format("{} after {}", keyframe.value, before.value));
@@ -92,15 +92,15 @@ void check_sightings(const MapFiles& files) {
   for (const FrameFile& frame : files.frames)
     shown += static_cast<std::uint64_t>(std::count_if(frame.landmarks.begin(), frame.landmarks.end(),
                                                       [](LandmarkId id) { return id.valid(); }));
-  if (shown != files.info.sightings)
+  if (shown != files.info.observations)
     fail(files.folder / kPointFile, fmt::format("{} sightings, as frames/ has", shown),
-         fmt::format("{}", files.info.sightings));
+         fmt::format("{}", files.info.observations));
 }
 
-/// For each keyframe the earlier one of its part that shows most of the landmarks that it shows, the latest
-/// of several, or the one before it in its part; not valid for a part's first.
+/// For each keyframe the earlier one of its component that shows most of the landmarks that it shows, the
+/// latest of several, or the one before it in its component; not valid for a component's first.
 std::vector<KeyframeId> choose_parents(const MapFiles& files) {
-  const auto part_of = [&](std::size_t keyframe) { return files.info.keyframes[keyframe].part; };
+  const auto component_of = [&](std::size_t keyframe) { return files.info.keyframes[keyframe].component; };
   std::vector<KeyframeId> parents(files.frames.size());
   std::vector<std::vector<std::size_t>> shown_by(files.landmarks.size());
   for (std::size_t i = 0; i < files.frames.size(); ++i) {
@@ -113,7 +113,7 @@ std::vector<KeyframeId> choose_parents(const MapFiles& files) {
     }
     int most = 0;
     for (std::size_t k = 0; k < i; ++k) {
-      if (part_of(k) != part_of(i) || shared[k] < most) continue;
+      if (component_of(k) != component_of(i) || shared[k] < most) continue;
       most = shared[k];
       parents[i] = {static_cast<std::int32_t>(k)};
     }
@@ -127,15 +127,15 @@ Map build_map(MapFiles&& files) {
   const std::vector<KeyframeId> parents = choose_parents(files);
   for (std::size_t i = 0; i < files.frames.size(); ++i)
     map.add_keyframe(std::move(files.frames[i].observed), files.poses[i], parents[i],
-                     files.info.keyframes[i].part);
+                     files.info.keyframes[i].component);
   for (const StoredLandmark& landmark : files.landmarks) {
     LandmarkId id;
-    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.sightings; ++row) {
-      const Sighting& sighting = files.sightings.sightings[row];
+    for (std::size_t row = landmark.first_row; row < landmark.first_row + landmark.observations; ++row) {
+      const ObservationRef& observation = files.observations.observations[row];
       if (id.valid())
-        map.add_sighting(id, sighting);
+        map.add_observation(id, observation);
       else
-        id = map.add_landmark(landmark.point_in_world, sighting);
+        id = map.add_landmark(landmark.point_in_world, observation);
     }
   }
   return map;
@@ -161,7 +161,7 @@ std::optional<fs::path> find_map_folder(const fs::path& folder) {
 
 Map read_map(const fs::path& folder) {
   MapFiles files = read_files(require_map_folder(folder));
-  check_sightings(files);
+  check_observations(files);
   return build_map(std::move(files));
 }
 

@@ -43,7 +43,7 @@ TEST(MapReader, a_map_comes_back) {
   ASSERT_EQ(back.keyframes().size(), 4U);
   ASSERT_EQ(back.landmarks().size(), 8U);
   const Keyframe &third = back.keyframes()[2], &written = map.keyframes()[3];
-  EXPECT_EQ(third.part, 1);
+  EXPECT_EQ(third.component, 1);
   EXPECT_EQ(third.observed.frame, FrameId{30});
   EXPECT_EQ(third.observed.stamp_ns, written.observed.stamp_ns);
   EXPECT_EQ(third.world_from_camera.translation, written.world_from_camera.translation);
@@ -61,17 +61,18 @@ TEST(MapReader, a_map_comes_back) {
                              written.observed.features.descriptors.row(i), 61));
   }
   EXPECT_EQ(back.landmarks()[0].point_in_world, map.landmarks()[1].point_in_world);
-  EXPECT_EQ(back.landmarks()[0].sightings, (std::vector<Sighting>{{{1}, 1}, {{2}, 1}}));
+  EXPECT_EQ(back.landmarks()[0].observations, (std::vector<ObservationRef>{{{1}, 1}, {{2}, 1}}));
   EXPECT_EQ(read_covariances(folder.path())[6], scene_covariances(map)[8]);
 }
 
-TEST(MapReader, parents_are_earlier_keyframes_of_the_part) {
+TEST(MapReader, parents_are_earlier_keyframes_of_the_component) {
   const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   const Map back = read_map(folder.path());
   EXPECT_FALSE(back.keyframes()[0].parent.valid());
   EXPECT_EQ(back.keyframes()[1].parent, KeyframeId{0});
-  EXPECT_FALSE(back.keyframes()[2].parent.valid());  // shares landmarks with those before, of another part
+  EXPECT_FALSE(
+      back.keyframes()[2].parent.valid());  // shares landmarks with those before, of another component
   EXPECT_EQ(back.keyframes()[3].parent, KeyframeId{2});
 }
 
@@ -81,8 +82,8 @@ TEST(MapReader, the_parent_is_the_one_with_most_landmarks_in_common) {
   Map map(kSceneRig, "ORB");
   for (int k = 0; k < 4; ++k) map.add_keyframe(observe_points(points, {}, 32, random), {}, {k - 1}, 0);
   for (std::int32_t i = 0; i < 3; ++i) map.add_landmark(points[static_cast<std::size_t>(i)], {{0}, i});
-  map.add_sighting({0}, {{1}, 0});
-  for (std::int32_t i = 0; i < 2; ++i) map.add_sighting({i}, {{2}, i});
+  map.add_observation({0}, {{1}, 0});
+  for (std::int32_t i = 0; i < 2; ++i) map.add_observation({i}, {{2}, i});
   const TemporaryFolder folder;
   write_map(folder.path(), map);
   const Map back = read_map(folder.path());

@@ -38,28 +38,28 @@ void expect_near(const Rigid3& a, const Rigid3& b) {
 TEST(Map, a_landmark_and_its_keyframes_know_each_other) {
   Map map = map_of_three();
   const LandmarkId landmark = map.add_landmark({1, 2, 3}, {kSecond, 2});
-  map.add_sighting(landmark, {kFirst, 3});
+  map.add_observation(landmark, {kFirst, 3});
   EXPECT_EQ(map[kFirst].landmarks[3], landmark);
   EXPECT_EQ(map[kSecond].landmarks[2], landmark);
-  EXPECT_EQ(map[landmark].sightings, (std::vector<Sighting>{{kFirst, 3}, {kSecond, 2}}));
+  EXPECT_EQ(map[landmark].observations, (std::vector<ObservationRef>{{kFirst, 3}, {kSecond, 2}}));
   EXPECT_EQ(map[landmark].point_in_world, Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(Map, a_sighting_ends_on_both_sides) {
+TEST(Map, a_observation_ends_on_both_sides) {
   Map map = map_of_three();
   const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});
-  map.add_sighting(landmark, {kThird, 1});
-  map.remove_sighting(landmark, kFirst);
-  map.remove_sighting(landmark, kSecond);  // is none
+  map.add_observation(landmark, {kThird, 1});
+  map.remove_observation(landmark, kFirst);
+  map.remove_observation(landmark, kSecond);  // is none
   EXPECT_FALSE(map[kFirst].landmarks[0].valid());
-  EXPECT_EQ(map[landmark].sightings, (std::vector<Sighting>{{kThird, 1}}));
+  EXPECT_EQ(map[landmark].observations, (std::vector<ObservationRef>{{kThird, 1}}));
 }
 
-TEST(Map, a_landmark_without_sightings_is_erased) {
+TEST(Map, a_landmark_without_observations_is_erased) {
   Map map = map_of_three();
   const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 0});
   const LandmarkId stays = map.add_landmark({0, 0, 0}, {kFirst, 1});
-  map.remove_sighting(gone, kFirst);
+  map.remove_observation(gone, kFirst);
   EXPECT_TRUE(map[gone].erased());
   EXPECT_EQ(map.landmark_ids(), (std::vector<LandmarkId>{stays}));
 }
@@ -67,43 +67,43 @@ TEST(Map, a_landmark_without_sightings_is_erased) {
 TEST(Map, an_erased_landmark_leaves_its_features_free) {
   Map map = map_of_three();
   const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 0});
-  map.add_sighting(gone, {kSecond, 1});
+  map.add_observation(gone, {kSecond, 1});
   map.erase(gone);
   EXPECT_FALSE(map[kFirst].landmarks[0].valid());
   EXPECT_FALSE(map[kSecond].landmarks[1].valid());
   EXPECT_NO_THROW((void)map.add_landmark({0, 0, 0}, {kSecond, 1}));
 }
 
-TEST(Map, merging_takes_sightings_over) {
+TEST(Map, merging_takes_observations_over) {
   Map map = map_of_three();
   const LandmarkId kept = map.add_landmark({0, 0, 1}, {kFirst, 0});
   const LandmarkId gone = map.add_landmark({0, 0, 2}, {kSecond, 1});
   map.merge(gone, kept);
   EXPECT_TRUE(map[gone].erased());
   EXPECT_EQ(map[kSecond].landmarks[1], kept);
-  EXPECT_EQ(map[kept].sightings, (std::vector<Sighting>{{kFirst, 0}, {kSecond, 1}}));
+  EXPECT_EQ(map[kept].observations, (std::vector<ObservationRef>{{kFirst, 0}, {kSecond, 1}}));
   EXPECT_EQ(map[kept].point_in_world.z(), 1);
 }
 
-TEST(Map, merging_ends_the_second_sighting_in_a_keyframe_that_shows_both) {
+TEST(Map, merging_ends_the_second_observation_in_a_keyframe_that_shows_both) {
   Map map = map_of_three();
   const LandmarkId kept = map.add_landmark({0, 0, 0}, {kFirst, 0});
   const LandmarkId gone = map.add_landmark({0, 0, 0}, {kFirst, 1});
-  map.add_sighting(gone, {kSecond, 2});
+  map.add_observation(gone, {kSecond, 2});
   map.merge(gone, kept);
   EXPECT_EQ(map[kFirst].landmarks[0], kept);
   EXPECT_FALSE(map[kFirst].landmarks[1].valid());
-  EXPECT_EQ(map[kept].sightings, (std::vector<Sighting>{{kFirst, 0}, {kSecond, 2}}));
+  EXPECT_EQ(map[kept].observations, (std::vector<ObservationRef>{{kFirst, 0}, {kSecond, 2}}));
 }
 
 TEST(Map, an_erased_keyframe_shows_nothing) {
   Map map = map_of_three();
   const LandmarkId shared = map.add_landmark({0, 0, 0}, {kFirst, 0});
-  map.add_sighting(shared, {kSecond, 0});
+  map.add_observation(shared, {kSecond, 0});
   const LandmarkId own = map.add_landmark({0, 0, 0}, {kSecond, 1});
   map.erase(kSecond);
   EXPECT_TRUE(map[own].erased());
-  EXPECT_EQ(map[shared].sightings, (std::vector<Sighting>{{kFirst, 0}}));
+  EXPECT_EQ(map[shared].observations, (std::vector<ObservationRef>{{kFirst, 0}}));
   EXPECT_TRUE(map[kSecond].landmarks.empty());
   EXPECT_TRUE(map[kSecond].observed.observations.empty());
   EXPECT_EQ(map[kSecond].observed.frame, FrameId{5});
@@ -131,21 +131,21 @@ TEST(Map, erased_keyframes_hang_on_each_other_in_any_order) {
   }
 }
 
-TEST(Map, an_erased_keyframe_belongs_to_the_part_of_its_parent) {
+TEST(Map, an_erased_keyframe_belongs_to_the_component_of_its_parent) {
   Map map = map_of_three();
   map.erase(kSecond);
-  map.set_part(kFirst, 4);
-  EXPECT_EQ(map.part_of(kSecond), 4);
-  EXPECT_EQ(map.part_of(kThird), 0);
+  map.set_component(kFirst, 4);
+  EXPECT_EQ(map.component_of(kSecond), 4);
+  EXPECT_EQ(map.component_of(kThird), 0);
 }
 
 TEST(Map, a_feature_shows_one_landmark) {
   Map map = map_of_three();
   const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});
-  EXPECT_THROW(map.add_sighting(landmark, {kFirst, 1}), PreconditionError);
+  EXPECT_THROW(map.add_observation(landmark, {kFirst, 1}), PreconditionError);
   (void)map.add_landmark({0, 0, 0}, {kSecond, 0});
-  EXPECT_THROW(map.add_sighting(landmark, {kSecond, 0}), PreconditionError);
-  EXPECT_EQ(map[landmark].sightings.size(), 1U);
+  EXPECT_THROW(map.add_observation(landmark, {kSecond, 0}), PreconditionError);
+  EXPECT_EQ(map[landmark].observations.size(), 1U);
   EXPECT_FALSE(map[kFirst].landmarks[1].valid());
 }
 

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSpoolFolder = "spool";
-constexpr std::array<const char*, MapWriterState::kSpools> kSpoolNames{"points", "sightings", "table",
-                                                                       "poses", "keyframes"};
+constexpr std::array<const char*, MapWriterState::kAppendFiles> kSpoolNames{"points", "sightings", "table",
+                                                                            "poses", "keyframes"};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -38,41 +38,42 @@ std::string format_pose(std::int64_t stamp_ns, const WorldFromCamera& world_from
 }
 
 void check(const FinishedLandmark& landmark, const DescriptorKind& kind) {
-  const std::vector<Sighting>& sightings = landmark.sightings;
-  require(!sightings.empty() && landmark.keypoints.size() == sightings.size() &&
-              landmark.descriptors.count() == sightings.size(),
+  const std::vector<ObservationRef>& observations = landmark.observations;
+  require(!observations.empty() && landmark.keypoints.size() == observations.size() &&
+              landmark.descriptors.count() == observations.size(),
           "a landmark has sightings, each with a keypoint and a descriptor");
   require(landmark.descriptors.norm() == kind.norm && landmark.descriptors.bytes() == kind.bytes,
           "all descriptors of a map are of one kind");
-  require(sightings.front().keyframe.valid() &&
-              std::is_sorted(sightings.begin(), sightings.end(),
-                             [](const Sighting& a, const Sighting& b) { return a.keyframe <= b.keyframe; }),
+  require(observations.front().keyframe.valid() &&
+              std::is_sorted(
+                  observations.begin(), observations.end(),
+                  [](const ObservationRef& a, const ObservationRef& b) { return a.keyframe <= b.keyframe; }),
           "a landmark is seen once in a keyframe, and these increase");
 }
 
 }  // namespace
 
 void MapWriterState::put(ByteWriter& writer) const {
-  for (const SpoolState& spool : spools) {
-    writer.put(spool.bytes);
-    writer.put(spool.checksum);
+  for (const AppendFileState& append_file : append_files) {
+    writer.put(append_file.bytes);
+    writer.put(append_file.checksum);
   }
   writer.put(frames);
   writer.put(landmarks);
   writer.put(features);
-  writer.put(sightings);
+  writer.put(observations);
 }
 
 MapWriterState MapWriterState::get(BinaryReader& reader) {
   MapWriterState state;
-  for (SpoolState& spool : state.spools) {
-    spool.bytes = reader.get<std::uint64_t>();
-    spool.checksum = reader.get<std::uint32_t>();
+  for (AppendFileState& append_file : state.append_files) {
+    append_file.bytes = reader.get<std::uint64_t>();
+    append_file.checksum = reader.get<std::uint32_t>();
   }
   state.frames = reader.get<std::int32_t>();
   state.landmarks = reader.get<std::uint32_t>();
   state.features = reader.get<std::uint64_t>();
-  state.sightings = reader.get<std::uint64_t>();
+  state.observations = reader.get<std::uint64_t>();
   return state;
 }
 
@@ -88,7 +89,7 @@ MapWriter::MapWriter(const fs::path& folder, const MapHeader& header, const MapW
       frames_(state.frames),
       landmarks_(state.landmarks),
       features_(state.features),
-      sightings_(state.sightings) {
+      observations_(state.observations) {
   require(is_known_descriptor(header.descriptor.name), "a map's descriptor is one of descriptor_names()");
   open_spools(&state);
   remove_frames_from(state.frames);
@@ -99,10 +100,10 @@ MapWriter::~MapWriter() = default;
 void MapWriter::open_spools(const MapWriterState* state) {
   make_folder(folder_ / kSpoolFolder);
   make_folder(folder_ / "frames");
-  for (std::size_t i = 0; i < spools_.size(); ++i) {
+  for (std::size_t i = 0; i < append_files_.size(); ++i) {
     const fs::path path = folder_ / kSpoolFolder / kSpoolNames[i];
-    spools_[i] =
-        state == nullptr ? std::make_unique<Spool>(path) : std::make_unique<Spool>(path, state->spools[i]);
+    append_files_[i] = state == nullptr ? std::make_unique<AppendFile>(path)
+                                        : std::make_unique<AppendFile>(path, state->append_files[i]);
   }
 }
 
@@ -123,32 +124,32 @@ void MapWriter::remove_frames_from(std::int32_t first) const {
 }
 
 void MapWriter::add_frame(const ObservedFrame& observed, std::span<const LandmarkId> landmarks,
-                          const WorldFromCamera& world_from_camera, std::int32_t part) {
+                          const WorldFromCamera& world_from_camera, std::int32_t component) {
   const KeyframeId number{frames_};
   const std::string bytes = format_frame_file(number, observed, landmarks, header_.descriptor);
   unsaved_.push_back(folder_ / frame_file_name(number, header_.descriptor.name));
   write_file(unsaved_.back(), bytes);
-  const KeyframeEntry entry{observed.frame, observed.stamp_ns, part, stored_checksum(bytes)};
-  spool(Part::keyframes).append(format_keyframe_entry(number, entry, header_.descriptor.name));
-  spool(Part::poses).append(format_pose(observed.stamp_ns, world_from_camera));
+  const KeyframeEntry entry{observed.frame, observed.stamp_ns, component, stored_checksum(bytes)};
+  append_file(Part::keyframes).append(format_keyframe_entry(number, entry, header_.descriptor.name));
+  append_file(Part::poses).append(format_pose(observed.stamp_ns, world_from_camera));
   features_ += observed.observations.size();
   ++frames_;
 }
 
 void MapWriter::add_landmark(const FinishedLandmark& landmark) {
   check(landmark, header_.descriptor);
-  const auto count = static_cast<std::uint32_t>(landmark.sightings.size());
+  const auto count = static_cast<std::uint32_t>(landmark.observations.size());
   ByteWriter point, rows;
-  put_landmark(landmarks_, {landmark.point_in_world, landmark.covariance, sightings_, count}, point);
+  put_landmark(landmarks_, {landmark.point_in_world, landmark.covariance, observations_, count}, point);
   for (std::size_t i = 0; i < count; ++i)
-    put_sighting(landmark.sightings[i], landmark.keypoints[i], landmark.descriptors.row(i),
-                 header_.descriptor, rows);
-  spool(Part::points).append(point.bytes());
-  spool(Part::sightings).append(rows.bytes());
-  spool(Part::table)
+    put_observation(landmark.observations[i], landmark.keypoints[i], landmark.descriptors.row(i),
+                    header_.descriptor, rows);
+  append_file(Part::points).append(point.bytes());
+  append_file(Part::observations).append(rows.bytes());
+  append_file(Part::table)
       .append(
           format_uvlist_row(landmarks_, landmark.point_in_world, landmark.covariance, landmark.indicators));
-  sightings_ += count;
+  observations_ += count;
   ++landmarks_;
 }
 
@@ -156,18 +157,18 @@ MapWriterState MapWriter::save() {
   for (const fs::path& frame : unsaved_) sync_to_disk(frame);
   unsaved_.clear();
   for (const char* name : {"frames", kSpoolFolder}) sync_to_disk(folder_ / name);
-  MapWriterState state{{}, frames_, landmarks_, features_, sightings_};
-  for (std::size_t i = 0; i < spools_.size(); ++i) state.spools[i] = spools_[i]->sync();
+  MapWriterState state{{}, frames_, landmarks_, features_, observations_};
+  for (std::size_t i = 0; i < append_files_.size(); ++i) state.append_files[i] = append_files_[i]->sync();
   return state;
 }
 
-void MapWriter::write_binary(const char* name, const BinaryWriter& begin, Part part, MapInfo& info) {
+void MapWriter::write_binary(const char* name, const BinaryWriter& begin, Part component, MapInfo& info) {
   BinaryFileWriter file(folder_ / name, begin);
-  spool(part).read([&](std::string_view piece) { file.write(piece); });
+  append_file(component).read([&](std::string_view piece) { file.write(piece); });
   info.checksums[name] = file.finish();
 }
 
-void MapWriter::write_text(const char* name, std::string_view begin, Part part, MapInfo& info) {
+void MapWriter::write_text(const char* name, std::string_view begin, Part component, MapInfo& info) {
   AtomicFile file(folder_ / name);
   Crc32 checksum;
   const auto write = [&](std::string_view piece) {
@@ -175,7 +176,7 @@ void MapWriter::write_text(const char* name, std::string_view begin, Part part, 
     checksum.add(piece);
   };
   write(begin);
-  spool(part).read(write);
+  append_file(component).read(write);
   file.commit();
   info.checksums[name] = checksum.value();
 }
@@ -188,7 +189,7 @@ void MapWriter::write_info(const MapInfo& info) {
     checksum.add(piece);
   };
   write(format_map_info_begin(info, static_cast<std::size_t>(frames_)));
-  spool(Part::keyframes).read(write);
+  append_file(Part::keyframes).read(write);
   write(format_map_info_end(info));
   file.write(format_map_info_seal(checksum.value()));
   file.commit();
@@ -196,9 +197,10 @@ void MapWriter::write_info(const MapInfo& info) {
 
 void MapWriter::finish() {
   require(frames_ > 0, "a map to write has keyframes");
-  MapInfo info{header_, {}, landmarks_, features_, sightings_, {}};
-  write_binary(kPointFile, begin_point_file(landmarks_, sightings_), Part::points, info);
-  write_binary(kDescriptorFile, begin_descriptor_file(header_.descriptor, sightings_), Part::sightings, info);
+  MapInfo info{header_, {}, landmarks_, features_, observations_, {}};
+  write_binary(kPointFile, begin_point_file(landmarks_, observations_), Part::points, info);
+  write_binary(kDescriptorFile, begin_descriptor_file(header_.descriptor, observations_), Part::observations,
+               info);
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cairn/core/spool.h"
+#include "cairn/core/append_file.h"
 #include "cairn/geometry/framed.h"
 #include "cairn/map/indicators.h"
 #include "cairn/map/map.h"
@@ -20,19 +20,19 @@ namespace cairn {
 struct FinishedLandmark {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();  ///< metres
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      ///< of the point, square metres; 0: not known
-  std::vector<Sighting> sightings;  ///< at least one; by keyframe, increasing, one for each
-  std::vector<Keypoint> keypoints;  ///< of each sighting; only size and sigma are kept
-  Descriptors descriptors;          ///< of each sighting
-  LandmarkIndicators indicators;    ///< for its row in uvlist.txt
+  std::vector<ObservationRef> observations;  ///< at least one; by keyframe, increasing, one for each
+  std::vector<Keypoint> keypoints;           ///< of each observation; only size and sigma are kept
+  Descriptors descriptors;                   ///< of each observation
+  LandmarkIndicators indicators;             ///< for its row in uvlist.txt
 };
 
 /// How far a MapWriter had come.
 struct MapWriterState {
-  static constexpr std::size_t kSpools = 5;
-  std::array<SpoolState, kSpools> spools;
+  static constexpr std::size_t kAppendFiles = 5;
+  std::array<AppendFileState, kAppendFiles> append_files;
   std::int32_t frames = 0;
   std::uint32_t landmarks = 0;
-  std::uint64_t features = 0, sightings = 0;
+  std::uint64_t features = 0, observations = 0;
 
   void put(ByteWriter& writer) const;
   [[nodiscard]] static MapWriterState get(BinaryReader& reader);
@@ -58,7 +58,7 @@ class MapWriter {
   /// The next frame. Its feature i shows landmarks[i], a final number, or none where that is not valid.
   /// Observations are finite, their sigmas and disparities above 0.
   void add_frame(const ObservedFrame& observed, std::span<const LandmarkId> landmarks,
-                 const WorldFromCamera& world_from_camera, std::int32_t part = 0);
+                 const WorldFromCamera& world_from_camera, std::int32_t component = 0);
   /// The next landmark.
   void add_landmark(const FinishedLandmark& landmark);
   [[nodiscard]] std::int32_t frames() const { return frames_; }
@@ -74,21 +74,23 @@ class MapWriter {
   static void discard_spools(const std::filesystem::path& folder);
 
  private:
-  enum class Part { points, sightings, table, poses, keyframes };
-  [[nodiscard]] Spool& spool(Part part) { return *spools_[static_cast<std::size_t>(part)]; }
+  enum class Part { points, observations, table, poses, keyframes };
+  [[nodiscard]] AppendFile& append_file(Part component) {
+    return *append_files_[static_cast<std::size_t>(component)];
+  }
   void open_spools(const MapWriterState* state);
   void remove_frames_from(std::int32_t first) const;
-  void write_binary(const char* name, const BinaryWriter& begin, Part part, MapInfo& info);
-  void write_text(const char* name, std::string_view begin, Part part, MapInfo& info);
+  void write_binary(const char* name, const BinaryWriter& begin, Part component, MapInfo& info);
+  void write_text(const char* name, std::string_view begin, Part component, MapInfo& info);
   void write_info(const MapInfo& info);
 
   std::filesystem::path folder_;
   MapHeader header_;
-  std::array<std::unique_ptr<Spool>, MapWriterState::kSpools> spools_;
+  std::array<std::unique_ptr<AppendFile>, MapWriterState::kAppendFiles> append_files_;
   std::vector<std::filesystem::path> unsaved_;  // frame files since the last save
   std::int32_t frames_ = 0;
   std::uint32_t landmarks_ = 0;
-  std::uint64_t features_ = 0, sightings_ = 0;
+  std::uint64_t features_ = 0, observations_ = 0;
 };
 
 }  // namespace cairn

@@ -58,15 +58,15 @@ FinishedLandmark landmark(std::int32_t number) {
   result.covariance = Eigen::Vector3d(0.01, 0.02, 0.5).asDiagonal();
   for (const std::int32_t feature : {1, 0})
     if (const std::int32_t shown = number - feature; shown >= 0 && shown < kFrames)
-      result.sightings.push_back({{shown}, feature});
-  result.descriptors = Descriptors(Norm::hamming, kDescriptorBytes, result.sightings.size());
-  std::vector<LandmarkView> views;
-  for (std::size_t i = 0; i < result.sightings.size(); ++i) {
-    const ObservedFrame observed = frame(result.sightings[i].keyframe.value);
-    const auto feature = static_cast<std::size_t>(result.sightings[i].feature);
+      result.observations.push_back({{shown}, feature});
+  result.descriptors = Descriptors(Norm::hamming, kDescriptorBytes, result.observations.size());
+  std::vector<PosedObservation> views;
+  for (std::size_t i = 0; i < result.observations.size(); ++i) {
+    const ObservedFrame observed = frame(result.observations[i].keyframe.value);
+    const auto feature = static_cast<std::size_t>(result.observations[i].feature);
     result.keypoints.push_back(observed.features.keypoints[feature]);
     std::memcpy(result.descriptors.row(i), observed.features.descriptors.row(feature), kDescriptorBytes);
-    views.push_back({pose(result.sightings[i].keyframe.value).inverse(), observed.observations[feature]});
+    views.push_back({pose(result.observations[i].keyframe.value).inverse(), observed.observations[feature]});
   }
   result.indicators = indicators_of(kSceneRig, result.point_in_world, views);
   return result;
@@ -151,7 +151,7 @@ TEST(MapWriter, half_written_frames_of_a_crash_are_gone) {
   MapWriter writer(folder.path() / "map", header(), state);
   for (std::int32_t i = 0; i < 2; ++i) {
     FinishedLandmark only = landmark(i);
-    only.sightings = {{{0}, i}};
+    only.observations = {{{0}, i}};
     only.keypoints.resize(1);
     only.descriptors = Descriptors(Norm::hamming, kDescriptorBytes, 1);
     std::memcpy(only.descriptors.row(0), frame(0).features.descriptors.row(static_cast<std::size_t>(i)),
@@ -193,11 +193,11 @@ TEST(MapWriter, its_state_goes_through_a_file) {
   write_file(folder.path() / "state", std::move(writer).finish());
   BinaryReader reader(folder.path() / "state", kKind);
   const MapWriterState back = MapWriterState::get(reader);
-  EXPECT_EQ(back.spools, state.spools);
+  EXPECT_EQ(back.append_files, state.append_files);
   EXPECT_EQ(back.frames, 1);
   EXPECT_EQ(back.landmarks, 1U);
   EXPECT_EQ(back.features, 2U);
-  EXPECT_EQ(back.sightings, 1U);
+  EXPECT_EQ(back.observations, 1U);
 }
 
 TEST(MapWriter, refuses_what_no_map_can_have) {
@@ -205,10 +205,10 @@ TEST(MapWriter, refuses_what_no_map_can_have) {
   MapWriter writer(folder.path(), header());
   EXPECT_THROW(writer.finish(), PreconditionError);  // no frame
   FinishedLandmark unseen = landmark(1);
-  unseen.sightings.clear();
+  unseen.observations.clear();
   EXPECT_THROW(writer.add_landmark(unseen), PreconditionError);
   FinishedLandmark twice = landmark(1);
-  twice.sightings[1].keyframe = twice.sightings[0].keyframe;
+  twice.observations[1].keyframe = twice.observations[0].keyframe;
   EXPECT_THROW(writer.add_landmark(twice), PreconditionError);
   FinishedLandmark nowhere = landmark(1);
   nowhere.point_in_world.x() = INFINITY;

@@ -18,9 +18,9 @@ PlaceFile::PlaceFile(const std::filesystem::path& folder, const MapInfo& info)
       header_.norm != static_cast<std::uint32_t>(info.descriptor.norm))
     file_.fail(fmt::format("descriptors of {} bytes, as map.json says", info.descriptor.bytes),
                fmt::format("{} bytes with norm number {}", header_.bytes, header_.norm));
-  if (header_.sightings != info.sightings)
-    file_.fail(fmt::format("{} sightings, as map.json says", info.sightings),
-               fmt::format("{}", header_.sightings));
+  if (header_.observations != info.observations)
+    file_.fail(fmt::format("{} sightings, as map.json says", info.observations),
+               fmt::format("{}", header_.observations));
   if (!is_possible(header_, file_.size())) file_.fail("counts that fit the size of the file", "others");
   layout_ = layout_of(header_);
   landmarks_ = info.landmarks;
@@ -33,7 +33,7 @@ PlaceFile::PlaceFile(const std::filesystem::path& folder, const MapInfo& info)
 
 void PlaceFile::count_shown_landmarks() {
   shown_landmarks_.resize(keyframes_);
-  for (const std::int32_t keyframe : file_.values<std::int32_t>(layout_.keyframes, header_.sightings)) {
+  for (const std::int32_t keyframe : file_.values<std::int32_t>(layout_.keyframes, header_.observations)) {
     if (keyframe < 0 || static_cast<std::uint64_t>(keyframe) >= keyframes_)
       file_.fail(fmt::format("a keyframe below {}", keyframes_), fmt::format("{}", keyframe));
     ++shown_landmarks_[static_cast<std::size_t>(keyframe)];
@@ -101,7 +101,7 @@ std::vector<PlaceFile::Neighbours> PlaceFile::find(const Descriptors& queries, d
 }
 
 std::span<const std::int32_t> PlaceFile::keyframes(std::uint64_t first_row, std::uint32_t count) const {
-  require(first_row <= header_.sightings && count <= header_.sightings - first_row,
+  require(first_row <= header_.observations && count <= header_.observations - first_row,
           "rows of Descriptor.bin are asked for");
   return file_.values<std::int32_t>(layout_.keyframes + 4 * first_row, count);
 }

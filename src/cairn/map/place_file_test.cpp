@@ -20,16 +20,16 @@ using testkit::TemporaryFolder;
 
 constexpr std::size_t kBytes = 128;
 
-/// Landmarks that look different, each seen by `sightings` keyframes in much the same way.
+/// Landmarks that look different, each seen by `observations` keyframes in much the same way.
 struct Places {
-  Places(const std::filesystem::path& folder, std::int32_t landmarks, std::int32_t sightings)
+  Places(const std::filesystem::path& folder, std::int32_t landmarks, std::int32_t observations)
       : looks(Norm::l2, kBytes, static_cast<std::size_t>(landmarks)) {
     MapHeader header;
     header.rig = kSceneRig;
     header.descriptor = {"SIFT", Norm::l2, kBytes};
     std::filesystem::create_directories(folder);
     MapWriter writer(folder, header);
-    for (std::int32_t k = 0; k < sightings; ++k) {
+    for (std::int32_t k = 0; k < observations; ++k) {
       ObservedFrame frame;
       frame.features.descriptors = Descriptors(Norm::l2, kBytes, 0);
       writer.add_frame(frame, {}, {});
@@ -38,17 +38,17 @@ struct Places {
     for (std::int32_t i = 0; i < landmarks; ++i) {
       std::uint8_t* look = looks.row(static_cast<std::size_t>(i));
       for (std::size_t b = 0; b < kBytes; ++b) look[b] = static_cast<std::uint8_t>(random.index(100));
-      writer.add_landmark(landmark(look, sightings, random));
+      writer.add_landmark(landmark(look, observations, random));
     }
     writer.finish();
     MapWriter::discard_spools(folder);
   }
 
-  static FinishedLandmark landmark(const std::uint8_t* look, std::int32_t sightings, Random& random) {
+  static FinishedLandmark landmark(const std::uint8_t* look, std::int32_t observations, Random& random) {
     FinishedLandmark result;
-    result.descriptors = Descriptors(Norm::l2, kBytes, static_cast<std::size_t>(sightings));
-    for (std::int32_t k = 0; k < sightings; ++k) {
-      result.sightings.push_back({{k}, 0});
+    result.descriptors = Descriptors(Norm::l2, kBytes, static_cast<std::size_t>(observations));
+    for (std::int32_t k = 0; k < observations; ++k) {
+      result.observations.push_back({{k}, 0});
       result.keypoints.emplace_back();
       std::uint8_t* row = result.descriptors.row(static_cast<std::size_t>(k));
       for (std::size_t b = 0; b < kBytes; ++b) row[b] = static_cast<std::uint8_t>(look[b] + random.index(4));
@@ -81,7 +81,7 @@ TEST(PlaceFile, finds_landmarks_by_their_look) {
   EXPECT_THROW((void)file.find(Descriptors(Norm::hamming, 32, 1), 0.45, 2), PreconditionError);
 }
 
-TEST(PlaceFile, is_a_quarter_of_the_sightings) {
+TEST(PlaceFile, is_a_quarter_of_the_observations) {
   const TemporaryFolder folder;
   const Places one(folder.path() / "one", 1000, 1), four(folder.path() / "four", 1000, 4),
       five(folder.path() / "five", 1000, 5);

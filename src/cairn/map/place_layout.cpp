@@ -20,7 +20,7 @@ BinaryWriter begin_place_file(const PlaceHeader& header) {
        {header.bytes, header.norm, header.branching, header.branches, header.leaves})
     writer.put(value);
   writer.put(header.rows);
-  writer.put(header.sightings);
+  writer.put(header.observations);
   writer.put(header.unrelated_distance);
   return writer;
 }
@@ -34,7 +34,7 @@ PlaceHeader get_place_header(const MappedFile& file) {
     place += sizeof *value;
   }
   header.rows = file.at<std::uint64_t>(place);
-  header.sightings = file.at<std::uint64_t>(place + 8);
+  header.observations = file.at<std::uint64_t>(place + 8);
   header.unrelated_distance = file.at<double>(place + 16);
   return header;
 }
@@ -50,7 +50,7 @@ PlaceLayout layout_of(const PlaceHeader& header) {
   layout.rows = layout.leaf_begins + 8 * (std::uint64_t{header.leaves} + 1);
   layout.landmarks = layout.rows + stride * header.rows;
   layout.keyframes = layout.landmarks + padded(4 * header.rows);
-  layout.end = layout.keyframes + padded(4 * header.sightings);
+  layout.end = layout.keyframes + padded(4 * header.observations);
   return layout;
 }
 
@@ -59,7 +59,7 @@ bool is_possible(const PlaceHeader& header, std::uint64_t file_bytes) {
   // None of these can be more than the bytes of the file, so no product below overflows.
   return header.branching >= 2 && header.branching <= kMostBranching && header.bytes <= kMostBytes &&
          header.branches <= file_bytes && header.leaves >= 1 && header.leaves <= file_bytes &&
-         header.rows <= file_bytes && header.sightings <= file_bytes && file_bytes < (1ULL << 47U) &&
+         header.rows <= file_bytes && header.observations <= file_bytes && file_bytes < (1ULL << 47U) &&
          std::isfinite(header.unrelated_distance) && header.unrelated_distance >= 0 &&
          layout_of(header).end == file_bytes;
 }

@@ -14,7 +14,7 @@ constexpr BinaryKind kPlaceKind{"CAIRNPLC", kMapVersion};
 struct PlaceHeader {
   std::uint32_t bytes = 0, norm = 0;  ///< of a descriptor
   std::uint32_t branching = 0, branches = 0, leaves = 0;
-  std::uint64_t rows = 0, sightings = 0;
+  std::uint64_t rows = 0, observations = 0;
   double unrelated_distance = 0;  ///< mean of descriptors of different landmarks
 };
 

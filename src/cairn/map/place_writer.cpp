@@ -21,12 +21,12 @@ constexpr std::size_t kBranching = 16;
 constexpr std::size_t kLeafRows = 128;                     // at most, where all rows are in the sample
 constexpr std::size_t kSampleRows = std::size_t{1} << 19;  // 67 MB of SIFT
 constexpr std::size_t kBatchRows = 4096;
-constexpr std::uint32_t kSightingsPerRow = 4;  // neighbouring views of a landmark look alike
+constexpr std::uint32_t kObservationsPerRow = 4;  // neighbouring views of a landmark look alike
 
 /// A file as memory: what is written goes to the disk where memory is short.
-class Scratch {
+class ScratchFile {
  public:
-  Scratch(const std::filesystem::path& path, std::uint64_t bytes) : path_(path), bytes_(bytes) {
+  ScratchFile(const std::filesystem::path& path, std::uint64_t bytes) : path_(path), bytes_(bytes) {
     if (bytes == 0) return;
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     int error_number = file < 0 ? errno : ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
@@ -35,13 +35,13 @@ class Scratch {
     if (file >= 0) ::close(file);
     if (error_number != 0) fail_writing(path, "write the file", error_number);
   }
-  ~Scratch() {
+  ~ScratchFile() {
     if (memory_ != nullptr && memory_ != MAP_FAILED) ::munmap(memory_, bytes_);
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);
   }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
   [[nodiscard]] char* data() { return static_cast<char*>(memory_); }
   /// What was written may lie on the disk alone.
   void forget() {
@@ -61,8 +61,8 @@ struct Batch {
   std::vector<std::uint32_t> landmarks;
 };
 
-/// The rows of a map that go into the index, batch by batch: of each landmark one of four sightings, spread
-/// evenly.
+/// The rows of a map that go into the index, batch by batch: of each landmark one of four observations,
+/// spread evenly.
 class IndexedRows {
  public:
   IndexedRows(const std::filesystem::path& folder, const MapInfo& info)
@@ -72,7 +72,7 @@ class IndexedRows {
 
   [[nodiscard]] std::uint64_t count() const {
     std::uint64_t count = 0;
-    for (std::uint32_t i = 0; i < info_.landmarks; ++i) count += rows_of(landmark(i).sightings);
+    for (std::uint32_t i = 0; i < info_.landmarks; ++i) count += rows_of(landmark(i).observations);
     return count;
   }
 
@@ -83,10 +83,10 @@ class IndexedRows {
     std::uint64_t number = 0;
     for (std::uint32_t i = 0; i < info_.landmarks; ++i) {
       const Extent of_landmark = landmark(i);
-      const std::uint64_t rows = rows_of(of_landmark.sightings);
+      const std::uint64_t rows = rows_of(of_landmark.observations);
       for (std::uint64_t k = 0; k < rows; ++k, ++number) {
         if (number % step != 0) continue;
-        const std::uint64_t within = (k * of_landmark.sightings + of_landmark.sightings / 2) / rows;
+        const std::uint64_t within = (k * of_landmark.observations + of_landmark.observations / 2) / rows;
         append(of_landmark.first_row + within, i, batch);
         if (batch.landmarks.size() < kBatchRows) continue;
         take(batch);
@@ -112,18 +112,18 @@ class IndexedRows {
   /// The keyframe of each row of Descriptor.bin.
   template <class Take>
   void for_each_keyframe(const Take& take) const {
-    for (std::uint64_t row = 0; row < info_.sightings; ++row)
+    for (std::uint64_t row = 0; row < info_.observations; ++row)
       take(descriptors_.at<std::int32_t>(place_of(row)));
   }
 
  private:
   struct Extent {
     std::uint64_t first_row;
-    std::uint32_t sightings;
+    std::uint32_t observations;
   };
 
-  static std::uint64_t rows_of(std::uint32_t sightings) {
-    return (sightings + kSightingsPerRow - 1) / kSightingsPerRow;
+  static std::uint64_t rows_of(std::uint32_t observations) {
+    return (observations + kObservationsPerRow - 1) / kObservationsPerRow;
   }
   [[nodiscard]] Batch empty_batch(std::size_t rows = kBatchRows) const {
     return {Descriptors(info_.descriptor.norm, info_.descriptor.bytes, rows), {}};
@@ -133,11 +133,11 @@ class IndexedRows {
     return {points_.at<std::uint64_t>(place + 8), points_.at<std::uint32_t>(place + 4)};
   }
   [[nodiscard]] std::uint64_t place_of(std::uint64_t row) const {
-    return kDescriptorBegin + row * sighting_bytes(info_.descriptor);
+    return kDescriptorBegin + row * observation_bytes(info_.descriptor);
   }
   void append(std::uint64_t row, std::uint32_t landmark, Batch& batch) const {
     std::memcpy(batch.descriptors.row(batch.landmarks.size()),
-                descriptors_.bytes(place_of(row) + kSightingHead, info_.descriptor.bytes),
+                descriptors_.bytes(place_of(row) + kObservationHead, info_.descriptor.bytes),
                 info_.descriptor.bytes);
     batch.landmarks.push_back(landmark);
   }
@@ -219,7 +219,7 @@ class SectionWriter {
 
 /// Puts every row in its leaf.
 void fill_leaves(const IndexedRows& rows, const DescriptorTree& tree, std::vector<std::uint64_t> next,
-                 Scratch& descriptors, Scratch& landmarks) {
+                 ScratchFile& descriptors, ScratchFile& landmarks) {
   rows.for_each_batch(1, [&](const Batch& batch) {
     const std::size_t stride = batch.descriptors.stride();
     for (const DescriptorTree::Visit& visit : tree.find_leaves(batch.descriptors, 1)) {
@@ -262,7 +262,7 @@ std::uint32_t write_empty_place_file(const std::filesystem::path& path, PlaceHea
 std::uint32_t write_place_file(const std::filesystem::path& folder, const MapInfo& info,
                                const std::filesystem::path& scratch) {
   PlaceHeader header{info.descriptor.bytes, static_cast<std::uint32_t>(info.descriptor.norm), kBranching};
-  header.sightings = info.sightings;
+  header.observations = info.observations;
   if (info.landmarks == 0) return write_empty_place_file(folder / kPlaceFile, header);
   const IndexedRows rows(folder, info);
   const Descriptors kind(info.descriptor.norm, info.descriptor.bytes, 0);
@@ -274,8 +274,8 @@ std::uint32_t write_place_file(const std::filesystem::path& folder, const MapInf
   header.unrelated_distance = sampled.unrelated_distance;
 
   const std::vector<std::uint64_t> begins = leaf_begins(rows, sampled.tree);
-  Scratch descriptors(scratch / "place_rows", header.rows * kind.stride());
-  Scratch landmarks(scratch / "place_landmarks", header.rows * sizeof(std::uint32_t));
+  ScratchFile descriptors(scratch / "place_rows", header.rows * kind.stride());
+  ScratchFile landmarks(scratch / "place_landmarks", header.rows * sizeof(std::uint32_t));
   fill_leaves(rows, sampled.tree, begins, descriptors, landmarks);
 
   SectionWriter sections(folder / kPlaceFile, header);

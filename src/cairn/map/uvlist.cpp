@@ -34,9 +34,9 @@ std::string format_uvlist_row(std::uint32_t number, const Eigen::Vector3d& point
   std::string row = fmt::format("{} {} {} {} {} {:.6g} {:.6g} {:.6g} {:.6g}", number, point_in_world.x(),
                                 point_in_world.y(), point_in_world.z(), indicators.frames, std.x(), std.y(),
                                 std.z(), indicators.rms_px);
-  for (const Spread& spread :
+  for (const ValueRange& range :
        {indicators.distance, indicators.lateral, indicators.depth, indicators.angle_deg})
-    row += fmt::format(" {:.6g} {:.6g} {:.6g} {:.6g}", spread.mean, spread.min, spread.max, spread.std);
+    row += fmt::format(" {:.6g} {:.6g} {:.6g} {:.6g}", range.mean, range.min, range.max, range.std);
   return row + "\n";
 }
 

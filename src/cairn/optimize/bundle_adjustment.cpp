@@ -26,7 +26,7 @@ class Adjustment {
         moved_(state_) {}
 
   [[nodiscard]] BundleReport run() {
-    equations_.price(state_);
+    equations_.evaluate_costs(state_);
     BundleReport report;
     report.cost_before = state_.cost;
     report.status = BundleStatus::undetermined;

@@ -216,7 +216,7 @@ void BundleEquations::move_point(std::size_t point, const BundleState& from, Bun
   price_point(point, from.term_costs, to);
 }
 
-void BundleEquations::price(BundleState& state) const {
+void BundleEquations::evaluate_costs(BundleState& state) const {
   for (std::size_t point = 0; point < structure_.points.size(); ++point)
     price_point(point, state.term_costs, state);
   state.sum_costs();

@@ -61,7 +61,7 @@ class BundleEquations {
   /// dropped term, and one that is behind its camera nevertheless, costs what it did.
   void move(const BundleState& from, BundleState& to) const;
   /// The costs at the state's places; a term behind its camera costs what it did.
-  void price(BundleState& state) const;
+  void evaluate_costs(BundleState& state) const;
 
  private:
   /// A term of a free camera: p, and gradient and Hessian of its cost by p.

@@ -50,7 +50,7 @@ TEST(BundleEquations, take_the_step_of_the_full_normal_equations) {
   BundleEquations equations(problem.rig, structure, options, executor);
   BundleState from(problem, structure), to(problem, structure);
   constexpr double kLambda = 0.01;
-  equations.price(from);
+  equations.evaluate_costs(from);
   equations.build(from, kLambda);
   ASSERT_TRUE(equations.solve());
   equations.move(from, to);

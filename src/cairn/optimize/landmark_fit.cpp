@@ -12,7 +12,7 @@
 namespace cairn {
 namespace {
 
-/// A point and what the sightings say of it.
+/// A point and what the observations say of it.
 struct LandmarkState {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   LandmarkSums sums{};
@@ -46,11 +46,11 @@ class Symmetric {
   double first_, trace_, cofactors_[6], determinant_;
 };
 
-/// One minimisation over the sightings that are packed.
+/// One minimisation over the observations that are packed.
 class Descent {
  public:
-  Descent(const LandmarkKernels& kernels, const LandmarkFitOptions& options, const PackedSightings& packed,
-          SightingErrors& errors)
+  Descent(const LandmarkKernels& kernels, const LandmarkFitOptions& options, const PackedObservations& packed,
+          ObservationErrors& errors)
       : kernels_(kernels), options_(options), packed_(packed), errors_(errors) {}
 
   LandmarkFitStatus run(const Eigen::Vector3d& start) {
@@ -163,8 +163,8 @@ class Descent {
 
   const LandmarkKernels& kernels_;
   const LandmarkFitOptions& options_;
-  const PackedSightings& packed_;
-  SightingErrors& errors_;
+  const PackedObservations& packed_;
+  ObservationErrors& errors_;
   std::array<LandmarkState, 2> states_;
   std::size_t current_ = 0;  // the other one is tried
   bool errors_are_of_state_ = false;
@@ -200,8 +200,8 @@ class LandmarkSolver::Work {
     }
   }
 
-  void fit(std::span<const LandmarkSighting> sightings, LandmarkFit& fit) {
-    packed_.pack(rig_, cameras_, sightings);
+  void fit(std::span<const CameraObservation> observations, LandmarkFit& fit) {
+    packed_.pack(rig_, cameras_, observations);
     errors_.make_room(packed_.block_count());
     fit.status = LandmarkFitStatus::too_few;
     fit.point_in_world.setZero();
@@ -209,14 +209,14 @@ class LandmarkSolver::Work {
     fit.squared_error_sum = fit.rms_px = 0;
     fit.redundancy = -3;
     fit.iterations = 0;
-    fit.kept.assign(sightings.size(), 0);
-    if (packed_.count() >= options_.min_observations) solve(sightings, fit);
-    count_kept(sightings, fit);
+    fit.kept.assign(observations.size(), 0);
+    if (packed_.count() >= options_.min_observations) solve(observations, fit);
+    count_kept(observations, fit);
   }
 
  private:
-  void solve(std::span<const LandmarkSighting> sightings, LandmarkFit& fit) {
-    const LandmarkStart start(rig_, cameras_, sightings, packed_);
+  void solve(std::span<const CameraObservation> observations, LandmarkFit& fit) {
+    const LandmarkStart start(rig_, cameras_, observations, packed_);
     if (minimise(start.quick(), fit) && fit.status == LandmarkFitStatus::ok) return;
     const Eigen::Vector3d initial = start.robust(kernels_, errors_);
     while (!minimise(initial, fit)) {
@@ -229,7 +229,7 @@ class LandmarkSolver::Work {
     }
   }
 
-  /// Whether all sightings' errors at the result are below max_error.
+  /// Whether all observations' errors at the result are below max_error.
   [[nodiscard]] bool minimise(const Eigen::Vector3d& initial, LandmarkFit& fit) {
     Descent descent(kernels_, options_, packed_, errors_);
     fit.status = descent.run(initial);
@@ -252,11 +252,11 @@ class LandmarkSolver::Work {
     return static_cast<std::size_t>(std::max_element(begin, begin + packed_.count()) - begin);
   }
 
-  void count_kept(std::span<const LandmarkSighting> sightings, LandmarkFit& fit) const {
+  void count_kept(std::span<const CameraObservation> observations, LandmarkFit& fit) const {
     double squared_px = 0;
     for (int slot = 0; slot < packed_.count(); ++slot) {
-      const auto index = static_cast<std::size_t>(packed_.sighting(slot));
-      const Observation& seen = sightings[index].seen;
+      const auto index = static_cast<std::size_t>(packed_.observation(slot));
+      const Observation& seen = observations[index].seen;
       fit.kept[index] = 1;
       fit.redundancy += seen.has_disparity() ? 3 : 2;
       squared_px += errors_.of_pixels[static_cast<std::size_t>(slot)] * seen.sigma_px * seen.sigma_px;
@@ -268,8 +268,8 @@ class LandmarkSolver::Work {
   LandmarkFitOptions options_;
   const LandmarkKernels& kernels_;
   std::vector<PlacedCamera> cameras_;
-  PackedSightings packed_;
-  SightingErrors errors_;
+  PackedObservations packed_;
+  ObservationErrors errors_;
 };
 
 LandmarkSolver::LandmarkSolver(const Rig& rig, std::span<const CameraFromWorld> cameras,
@@ -279,15 +279,15 @@ LandmarkSolver::~LandmarkSolver() = default;
 LandmarkSolver::LandmarkSolver(LandmarkSolver&&) noexcept = default;
 LandmarkSolver& LandmarkSolver::operator=(LandmarkSolver&&) noexcept = default;
 
-void LandmarkSolver::fit(std::span<const LandmarkSighting> sightings, LandmarkFit& fit) {
-  work_->fit(sightings, fit);
+void LandmarkSolver::fit(std::span<const CameraObservation> observations, LandmarkFit& fit) {
+  work_->fit(observations, fit);
 }
 
 LandmarkFit fit_landmark(const Rig& rig, std::span<const CameraFromWorld> cameras,
-                         std::span<const LandmarkSighting> sightings, const LandmarkFitOptions& options) {
+                         std::span<const CameraObservation> observations, const LandmarkFitOptions& options) {
   LandmarkSolver solver(rig, cameras, options);
   LandmarkFit result;
-  solver.fit(sightings, result);
+  solver.fit(observations, result);
   return result;
 }
 

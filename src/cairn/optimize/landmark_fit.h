@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cairn/features/kernels/instruction_set.h"
-#include "cairn/optimize/packed_sightings.h"
+#include "cairn/optimize/packed_observations.h"
 
 namespace cairn {
 
@@ -40,7 +40,7 @@ struct LandmarkFit {
   double squared_error_sum = 0;  ///< over the kept observations, in variances; 0 where they are too few
   int redundancy = 0;            ///< numbers measured by the kept observations, less 3
   double rms_px = 0;             ///< of the distance in (u, v) over the kept ones; 0 where they are too few
-  std::vector<char> kept;        ///< one for each sighting, 1: used
+  std::vector<char> kept;        ///< one for each observation, 1: used
   int iterations = 0;            ///< steps tried for the last solution
 };
 
@@ -48,10 +48,10 @@ struct LandmarkFit {
 ///
 ///     sum_i |S_i (pi(T_i X) - z_i)|^2
 ///
-/// over the sightings z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i
-/// are the inverse standard deviations. While a sighting's error at the solution is above max_error, the
-/// worst one is dropped, and the solution is sought again from the initial value. That is a sighting
-/// back-projected by its disparity, or two intersected; once sightings are to be dropped it is the one of
+/// over the observations z_i = (u, v, d) from cameras T_i = camera_from_world, which stay where they are; S_i
+/// are the inverse standard deviations. While an observation's error at the solution is above max_error, the
+/// worst one is dropped, and the solution is sought again from the initial value. That is an observation
+/// back-projected by its disparity, or two intersected; once observations are to be dropped it is the one of
 /// these with the least median error (Rousseeuw 1984). Each solution begins with equations that are linear in
 /// X (Hartley and Sturm 1997) and goes on with Gauss-Newton steps, damped where they do not lower the cost
 /// (Marquardt 1963).
@@ -69,7 +69,7 @@ class LandmarkSolver {
 
   /// Fills `fit`, whose memory is used again. PreconditionError for a camera out of range, pixels that are
   /// not finite, sigmas not above 0. A disparity that is not above 0 is a measurement like others.
-  void fit(std::span<const LandmarkSighting> sightings, LandmarkFit& fit);
+  void fit(std::span<const CameraObservation> observations, LandmarkFit& fit);
 
  private:
   class Work;
@@ -78,7 +78,7 @@ class LandmarkSolver {
 
 /// One landmark with a solver of its own. For many, LandmarkSolver is faster.
 [[nodiscard]] LandmarkFit fit_landmark(const Rig& rig, std::span<const CameraFromWorld> cameras,
-                                       std::span<const LandmarkSighting> sightings,
+                                       std::span<const CameraObservation> observations,
                                        const LandmarkFitOptions& options = {});
 
 }  // namespace cairn

@@ -21,7 +21,7 @@ using testkit::make_landmark_scene;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-using Sightings = std::vector<LandmarkSighting>;
+using Observations = std::vector<CameraObservation>;
 
 /// The normal equations by plain matrices, from Rig alone.
 struct PlainEquations {
@@ -29,10 +29,10 @@ struct PlainEquations {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   double squared_error = 0;
   double worst = -1;
-  std::size_t worst_sighting = 0;
+  std::size_t worst_observation = 0;
 };
 
-PlainEquations plain_equations(const LandmarkScene& scene, const Sightings& track,
+PlainEquations plain_equations(const LandmarkScene& scene, const Observations& track,
                                const std::vector<char>& kept, const Eigen::Vector3d& point) {
   PlainEquations equations;
   for (std::size_t i = 0; i < track.size(); ++i) {
@@ -50,13 +50,13 @@ PlainEquations plain_equations(const LandmarkScene& scene, const Sightings& trac
     equations.squared_error += squared;
     if (squared <= equations.worst) continue;
     equations.worst = squared;
-    equations.worst_sighting = i;
+    equations.worst_observation = i;
   }
   return equations;
 }
 
 /// Gauss-Newton to rounding from a start that is near.
-Eigen::Vector3d plain_minimum(const LandmarkScene& scene, const Sightings& track,
+Eigen::Vector3d plain_minimum(const LandmarkScene& scene, const Observations& track,
                               const std::vector<char>& kept, Eigen::Vector3d point) {
   for (int i = 0; i < 50; ++i) {
     const PlainEquations equations = plain_equations(scene, track, kept, point);
@@ -66,13 +66,13 @@ Eigen::Vector3d plain_minimum(const LandmarkScene& scene, const Sightings& track
 }
 
 /// The stated procedure: drop the worst and begin again.
-std::vector<char> plain_kept(const LandmarkScene& scene, const Sightings& track, const Eigen::Vector3d& start,
-                             double max_error) {
+std::vector<char> plain_kept(const LandmarkScene& scene, const Observations& track,
+                             const Eigen::Vector3d& start, double max_error) {
   std::vector<char> kept(track.size(), 1);
   for (;;) {
     const PlainEquations at = plain_equations(scene, track, kept, plain_minimum(scene, track, kept, start));
     if (at.worst <= max_error * max_error) return kept;
-    kept[at.worst_sighting] = 0;
+    kept[at.worst_observation] = 0;
   }
 }
 
@@ -110,7 +110,7 @@ TEST(LandmarkFit, it_is_the_minimum_with_the_inverse_of_its_equations) {
   for (const double share : {0.0, 0.5, 1.0}) {
     const LandmarkScene scene = make_landmark_scene(2, {.disparity_share = share});
     for (std::size_t i = 0; i < scene.tracks.size(); ++i) {
-      const Sightings& track = scene.tracks[i];
+      const Observations& track = scene.tracks[i];
       const std::vector<char> all(track.size(), 1);
       const LandmarkFit fit = fit_landmark(scene.rig, scene.cameras, track, {.max_error = 1e3});
       ASSERT_EQ(fit.status, LandmarkFitStatus::ok);
@@ -127,7 +127,7 @@ TEST(LandmarkFit, it_is_the_minimum_with_the_inverse_of_its_equations) {
 
 TEST(LandmarkFit, counts_what_was_measured) {
   LandmarkScene scene = make_landmark_scene(3, {.landmarks = 1, .shortest_track = 6, .longest_track = 6});
-  Sightings& track = scene.tracks[0];
+  Observations& track = scene.tracks[0];
   track[1].seen.d = kNan;
   track[4].seen.u += 50;
   const LandmarkFit fit = fit_landmark(scene.rig, scene.cameras, track);
@@ -198,7 +198,7 @@ TEST(LandmarkFit, same_bits_on_all_instruction_sets_and_from_a_used_solver) {
   for (const InstructionSet set : available_instruction_sets()) {
     LandmarkSolver solver(scene.rig, scene.cameras, {}, set);
     LandmarkFit fit;
-    for (const Sightings& track : scene.tracks) {
+    for (const Observations& track : scene.tracks) {
       solver.fit(track, fit);
       const LandmarkFit fresh = [&] {
         LandmarkSolver plain(scene.rig, scene.cameras, {}, InstructionSet::plain);
@@ -258,7 +258,7 @@ TEST(LandmarkFit, far_points_are_honest_across_the_ray_or_undetermined) {
 TEST(LandmarkFit, parallel_rays_do_not_determine_a_point) {
   LandmarkScene scene = make_landmark_scene(12, {.landmarks = 0});
   const Observation middle{.u = 600, .v = 200};
-  const Sightings thrice{{7, middle}, {7, middle}, {7, middle}};
+  const Observations thrice{{7, middle}, {7, middle}, {7, middle}};
   const LandmarkFit fit = fit_landmark(scene.rig, scene.cameras, thrice);
   EXPECT_EQ(fit.status, LandmarkFitStatus::undetermined);
   EXPECT_EQ(fit.covariance, Eigen::Matrix3d::Zero());
@@ -267,7 +267,7 @@ TEST(LandmarkFit, parallel_rays_do_not_determine_a_point) {
 TEST(LandmarkFit, one_observation_with_disparity_is_back_projected) {
   const LandmarkScene scene = make_landmark_scene(13, {.landmarks = 0});
   const Observation seen{.u = 700, .v = 100, .d = 20};
-  const Sightings once{{3, seen}};
+  const Observations once{{3, seen}};
   const LandmarkFit fit = fit_landmark(scene.rig, scene.cameras, once, {.min_observations = 1});
   ASSERT_EQ(fit.status, LandmarkFitStatus::ok);
   EXPECT_EQ(fit.redundancy, 0);
@@ -281,7 +281,7 @@ TEST(LandmarkFit, an_observation_by_a_camera_that_has_passed_is_dropped) {
   LandmarkScene scene = make_landmark_scene(14, {.landmarks = 50, .shortest_track = 8, .longest_track = 8});
   int count = 0;
   for (std::size_t i = 0; i < scene.tracks.size(); ++i) {
-    Sightings track = scene.tracks[i];
+    Observations track = scene.tracks[i];
     track[2].camera =
         std::min(99, track[7].camera + 40);  // the landmark is at most 30 m ahead of the last one
     if (track[2].camera < track[7].camera + 31) continue;
@@ -296,9 +296,9 @@ TEST(LandmarkFit, an_observation_by_a_camera_that_has_passed_is_dropped) {
 
 TEST(LandmarkFit, a_disparity_of_noise_below_zero_is_a_measurement) {
   LandmarkScene scene = make_landmark_scene(15, {.landmarks = 1, .shortest_track = 5, .longest_track = 5});
-  for (LandmarkSighting& sighting : scene.tracks[0]) {
-    sighting.seen.d = sighting.camera % 2 == 0 ? -1 : 0;
-    sighting.seen.sigma_d_px = 100;
+  for (CameraObservation& observation : scene.tracks[0]) {
+    observation.seen.d = observation.camera % 2 == 0 ? -1 : 0;
+    observation.seen.sigma_d_px = 100;
   }
   const LandmarkFit fit = fit_landmark(scene.rig, scene.cameras, scene.tracks[0]);
   ASSERT_EQ(fit.status, LandmarkFitStatus::ok);
@@ -307,8 +307,8 @@ TEST(LandmarkFit, a_disparity_of_noise_below_zero_is_a_measurement) {
 
 TEST(LandmarkFit, refuses_what_is_no_measurement) {
   const LandmarkScene scene = make_landmark_scene(16, {.landmarks = 1});
-  const auto refused = [&](const LandmarkSighting& last) {
-    Sightings track = scene.tracks[0];
+  const auto refused = [&](const CameraObservation& last) {
+    Observations track = scene.tracks[0];
     track.back() = last;
     EXPECT_THROW((void)fit_landmark(scene.rig, scene.cameras, track), PreconditionError);
   };

@@ -16,8 +16,8 @@ bool is_surer(const Observation& a, const Observation& b) {
 
 }  // namespace
 
-void SightingErrors::make_room(int blocks) {
-  const auto size = static_cast<std::size_t>(blocks) * kSightingLanes;
+void ObservationErrors::make_room(int blocks) {
+  const auto size = static_cast<std::size_t>(blocks) * kObservationLanes;
   if (of_all.size() >= size) return;
   of_pixels.resize(size);
   of_all.resize(size);
@@ -26,18 +26,19 @@ void SightingErrors::make_room(int blocks) {
 
 Eigen::Vector3d LandmarkStart::quick() const {
   std::size_t surest = 0;
-  for (std::size_t i = 1; i < sightings_.size(); ++i)
-    if (is_surer(sightings_[i].seen, sightings_[surest].seen)) surest = i;
+  for (std::size_t i = 1; i < observations_.size(); ++i)
+    if (is_surer(observations_[i].seen, observations_[surest].seen)) surest = i;
   constexpr double kFarDisparityPx = 1;  // for rays that do not meet in front of their cameras
-  return candidate(surest).value_or(back_project(sightings_[0], rig_.depth(kFarDisparityPx)));
+  return candidate(surest).value_or(back_project(observations_[0], rig_.depth(kFarDisparityPx)));
 }
 
-Eigen::Vector3d LandmarkStart::robust(const LandmarkKernels& kernels, SightingErrors& errors) const {
-  constexpr std::size_t kMaxCandidates = 64;  // one of them is right, unless nearly all sightings are wrong
-  const std::size_t stride = (sightings_.size() + kMaxCandidates - 1) / kMaxCandidates;
+Eigen::Vector3d LandmarkStart::robust(const LandmarkKernels& kernels, ObservationErrors& errors) const {
+  constexpr std::size_t kMaxCandidates =
+      64;  // one of them is right, unless nearly all observations are wrong
+  const std::size_t stride = (observations_.size() + kMaxCandidates - 1) / kMaxCandidates;
   Eigen::Vector3d best = quick();
   double least = median_error(kernels, best, errors);
-  for (std::size_t i = 0; i < sightings_.size(); i += stride) {
+  for (std::size_t i = 0; i < observations_.size(); i += stride) {
     const auto point = candidate(i);
     if (!point) continue;
     const double error = median_error(kernels, *point, errors);
@@ -48,16 +49,16 @@ Eigen::Vector3d LandmarkStart::robust(const LandmarkKernels& kernels, SightingEr
   return best;
 }
 
-std::optional<Eigen::Vector3d> LandmarkStart::candidate(std::size_t sighting) const {
-  const LandmarkSighting& chosen = sightings_[sighting];
+std::optional<Eigen::Vector3d> LandmarkStart::candidate(std::size_t observation) const {
+  const CameraObservation& chosen = observations_[observation];
   if (chosen.seen.d > 0) return back_project(chosen, rig_.depth(chosen.seen.d));
-  const std::size_t count = sightings_.size();
-  return intersect(sighting, (sighting + count / 2) % count);
+  const std::size_t count = observations_.size();
+  return intersect(observation, (observation + count / 2) % count);
 }
 
 std::optional<Eigen::Vector3d> LandmarkStart::intersect(std::size_t a, std::size_t b) const {
   constexpr double kMinAngle = 1e-4;  // radians: a tenth of a pixel where a pixel is a thousandth
-  const LandmarkSighting &seen_a = sightings_[a], &seen_b = sightings_[b];
+  const CameraObservation &seen_a = observations_[a], &seen_b = observations_[b];
   const PlacedCamera &camera_a = camera_of(seen_a), &camera_b = camera_of(seen_b);
   const Rigid3 b_from_a{
       Eigen::Quaterniond(camera_b.world_from_camera.transpose() * camera_a.world_from_camera),
@@ -70,14 +71,14 @@ std::optional<Eigen::Vector3d> LandmarkStart::intersect(std::size_t a, std::size
   return back_project(seen_a, met->point_in_a.z());
 }
 
-Eigen::Vector3d LandmarkStart::back_project(const LandmarkSighting& sighting, double depth) const {
-  const PlacedCamera& camera = camera_of(sighting);
-  return camera.world_from_camera * rig_.point_at(sighting.seen.u, sighting.seen.v, depth) +
+Eigen::Vector3d LandmarkStart::back_project(const CameraObservation& observation, double depth) const {
+  const PlacedCamera& camera = camera_of(observation);
+  return camera.world_from_camera * rig_.point_at(observation.seen.u, observation.seen.v, depth) +
          (camera.centre_in_world - packed_.origin_in_world());
 }
 
 double LandmarkStart::median_error(const LandmarkKernels& kernels, const Eigen::Vector3d& point,
-                                   SightingErrors& errors) const {
+                                   ObservationErrors& errors) const {
   LandmarkSums sums;
   kernels.linearise(packed_.blocks(), packed_.block_count(), point.data(), &sums, errors.of_pixels.data(),
                     errors.of_all.data());

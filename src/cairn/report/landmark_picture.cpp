@@ -12,7 +12,7 @@
 #include "cairn/core/distribution.h"
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 #include "cairn/report/colors.h"
 #include "cairn/report/landmark_layer.h"
 #include "cairn/report/lettering.h"
@@ -30,34 +30,34 @@ constexpr Rgb8 kPath{30, 41, 59}, kHalo{255, 255, 255}, kPale{148, 163, 184};
 constexpr Rgb8 kStart{22, 163, 74}, kEnd{220, 38, 38}, kGood{22, 163, 74}, kWeak{234, 88, 12};
 constexpr double kMargin = 30, kHeader = 84, kFooter = 84;  // pixels around the drawing
 
-/// What is drawn of a map: the part with most keyframes.
-struct MainPart {
+/// What is drawn of a map: the component with most keyframes.
+struct MainComponent {
   fs::path folder;
   MapInfo info;
-  std::int32_t part = 0;
+  std::int32_t component = 0;
   bool is_whole = true;
   std::vector<WorldFromCamera> poses;
   std::vector<std::size_t> begins;  ///< where in `poses` a recording begins
 };
 
-std::int32_t largest_part(const MapInfo& info) {
+std::int32_t largest_component(const MapInfo& info) {
   std::map<std::int32_t, std::int32_t> sizes;
-  for (const KeyframeEntry& entry : info.keyframes) ++sizes[entry.part];
+  for (const KeyframeEntry& entry : info.keyframes) ++sizes[entry.component];
   std::int32_t best = sizes.begin()->first;
-  for (const auto& [part, size] : sizes)
-    if (size > sizes[best]) best = part;
+  for (const auto& [component, size] : sizes)
+    if (size > sizes[best]) best = component;
   return best;
 }
 
-MainPart read_main_part(const fs::path& map_folder) {
+MainComponent read_main_component(const fs::path& map_folder) {
   const fs::path folder = require_map_folder(map_folder);
-  MainPart map{folder, read_map_info(folder / kMapInfoFile), 0, true, {}, {}};
-  map.part = largest_part(map.info);
+  MainComponent map{folder, read_map_info(folder / kMapInfoFile), 0, true, {}, {}};
+  map.component = largest_component(map.info);
   const std::vector<WorldFromCamera> poses = read_map_poses(folder, map.info);
   std::optional<std::int64_t> before;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const KeyframeEntry& entry = map.info.keyframes[i];
-    if (entry.part != map.part) {
+    if (entry.component != map.component) {
       map.is_whole = false;
       continue;
     }
@@ -68,19 +68,19 @@ MainPart read_main_part(const fs::path& map_folder) {
   return map;
 }
 
-/// Hands out the landmarks of the part; their sightings are read only if there are other parts.
+/// Hands out the landmarks of the component; their observations are read only if there are other components.
 template <class Take>
-void for_each_landmark(const MainPart& map, const Take& take) {
+void for_each_landmark(const MainComponent& map, const Take& take) {
   LandmarkStream landmarks(map.folder, map.info);
-  std::optional<SightingStream> sightings;
-  if (!map.is_whole) sightings.emplace(map.folder, map.info);
+  std::optional<ObservationStream> observations;
+  if (!map.is_whole) observations.emplace(map.folder, map.info);
   while (const auto landmark = landmarks.next()) {
-    bool is_in_part = true;
-    for (std::uint32_t i = 0; sightings && i < landmark->sightings; ++i) {
-      const auto keyframe = static_cast<std::size_t>(sightings->next()->sighting.keyframe.value);
-      if (i == 0) is_in_part = map.info.keyframes[keyframe].part == map.part;
+    bool is_in_component = true;
+    for (std::uint32_t i = 0; observations && i < landmark->observations; ++i) {
+      const auto keyframe = static_cast<std::size_t>(observations->next()->observation.keyframe.value);
+      if (i == 0) is_in_component = map.info.keyframes[keyframe].component == map.component;
     }
-    if (is_in_part) take(*landmark);
+    if (is_in_component) take(*landmark);
   }
 }
 
@@ -103,7 +103,7 @@ struct Places {
 
 /// Returns the range of the path, the good poses and the landmarks; those beyond the scale of standard
 /// deviations count only if nearly all are.
-PlanRange range_of(const MainPart& map, const std::vector<FoundPose>& found, const PlanView& view) {
+PlanRange range_of(const MainComponent& map, const std::vector<FoundPose>& found, const PlanView& view) {
   constexpr double kFewCertain = 0.05;
   PlanRange range;  // the origin is on the path
   for (const WorldFromCamera& pose : map.poses) range.include(view.metres(pose.translation));
@@ -121,7 +121,7 @@ PlanRange range_of(const MainPart& map, const std::vector<FoundPose>& found, con
   return range;
 }
 
-PlanView view_of(const MainPart& map, const std::vector<FoundPose>& found) {
+PlanView view_of(const MainComponent& map, const std::vector<FoundPose>& found) {
   PlanView view;
   view.axes = choose_plan_axes(map.info.origin.has_value(), map.poses);
   view.origin = map.poses.front().translation;
@@ -138,7 +138,7 @@ RgbImage blank_picture(const PlanView& view) {
   return picture;
 }
 
-LandmarkLayer gather_landmarks(const MainPart& map, const PlanView& view, const RgbImage& picture) {
+LandmarkLayer gather_landmarks(const MainComponent& map, const PlanView& view, const RgbImage& picture) {
   LandmarkLayer layer(picture.width(), picture.height(), map.info.landmarks);
   for_each_landmark(map, [&](const StoredLandmark& landmark) {
     layer.add(view(landmark.point_in_world), largest_std(landmark));
@@ -147,7 +147,7 @@ LandmarkLayer gather_landmarks(const MainPart& map, const PlanView& view, const 
 }
 
 /// Draws the header and the footer over what of the scene lies there.
-void draw_frame(RgbImage& picture, const MainPart& map, const PlanView& view, std::string_view what) {
+void draw_frame(RgbImage& picture, const MainComponent& map, const PlanView& view, std::string_view what) {
   const double bottom = kHeader + view.size.y();
   for (int v = 0; v < picture.height(); ++v)
     if (v < kHeader - 10 || v > bottom + 4)
@@ -161,7 +161,7 @@ void draw_frame(RgbImage& picture, const MainPart& map, const PlanView& view, st
   draw_scale_bar(picture, view.pixels_per_metre, {picture.width() - kMargin, picture.height() - 30.0});
 }
 
-void draw_path(RgbImage& picture, const MainPart& map, const PlanView& view, double width,
+void draw_path(RgbImage& picture, const MainComponent& map, const PlanView& view, double width,
                const Rgb8& color) {
   for (std::size_t i = 1, recording = 1; i < map.poses.size(); ++i) {
     const bool begins = recording < map.begins.size() && map.begins[recording] == i;
@@ -193,7 +193,7 @@ void draw_mark(RgbImage& picture, const Eigen::Vector2d& place, const Eigen::Vec
 }
 
 /// Marks start and end of each recording of the map.
-void draw_ends(RgbImage& picture, const MainPart& map, const PlanView& view) {
+void draw_ends(RgbImage& picture, const MainComponent& map, const PlanView& view) {
   constexpr std::size_t kNext = 5;  // keyframes further on: where the path goes
   const auto place = [&](std::size_t i) { return view(map.poses[i].translation); };
   for (std::size_t i = 0; i < map.begins.size(); ++i) {
@@ -218,7 +218,7 @@ void draw_found_pose(RgbImage& picture, const FoundPose& pose, const PlanView& v
 }  // namespace
 
 RgbImage draw_landmarks(const fs::path& map_folder) {
-  const MainPart map = read_main_part(map_folder);
+  const MainComponent map = read_main_component(map_folder);
   const PlanView view = view_of(map, {});
   RgbImage picture = blank_picture(view);
   const LandmarkLayer layer = gather_landmarks(map, view, picture);
@@ -233,7 +233,7 @@ RgbImage draw_landmarks(const fs::path& map_folder) {
 
 RgbImage draw_found_poses(const fs::path& map_folder, const std::vector<FoundPose>& found,
                           std::int64_t not_found) {
-  const MainPart map = read_main_part(map_folder);
+  const MainComponent map = read_main_component(map_folder);
   const PlanView view = view_of(map, found);
   RgbImage picture = blank_picture(view);
   gather_landmarks(map, view, picture).draw(picture, kPale);

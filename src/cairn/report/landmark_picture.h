@@ -18,7 +18,8 @@ constexpr const char* kLandmarkPicture = "landmarks.png";
 /// with start and end; a bar of a round length in metres, and which directions of the world are right and up
 /// (choose_plan_axes). The extent is that of the path and of all but the outermost hundredths of the
 /// landmarks in either direction; those whose standard deviation is above 1 m count only if nearly all are
-/// such. Of a map of several parts the one with most keyframes is drawn, as parts have no common world.
+/// such. Of a map of several components the one with most keyframes is drawn, as components have no common
+/// world.
 ///
 /// The landmarks are read twice and never kept: memory does not grow with their number. InputError if the map
 /// cannot be read.

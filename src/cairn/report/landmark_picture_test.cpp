@@ -139,7 +139,7 @@ int unknown_in_scene(const Map& map) {
   return count;
 }
 
-TEST(LandmarkPicture, draws_the_part_with_most_keyframes_alone) {
+TEST(LandmarkPicture, draws_the_component_with_most_keyframes_alone) {
   Map map = alley(20);
   const int alone = unknown_in_scene(map);
   Random random(3);
@@ -149,7 +149,7 @@ TEST(LandmarkPicture, draws_the_part_with_most_keyframes_alone) {
   const KeyframeId other = map.add_keyframe(std::move(frame), {}, {}, 1);
   map.add_landmark({1.5, 0, 10}, {other, 0});  // where the alley has none
   EXPECT_EQ(unknown_in_scene(map), alone);
-  map.set_part(other, 0);
+  map.set_component(other, 0);
   EXPECT_NE(unknown_in_scene(map), alone);
 }
 

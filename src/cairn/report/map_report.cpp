@@ -26,21 +26,22 @@ std::array<double, 6> statistics_of(const Distribution& values) {
           values.quantile(0.95), values.max(),          values.mean()};
 }
 
-std::vector<std::size_t> part_sizes(const MapFigures& figures) {
+std::vector<std::size_t> component_sizes(const MapStatistics& figures) {
   std::vector<std::size_t> sizes;
-  for (const auto& [part, size] : figures.part_keyframes) sizes.push_back(size);
+  for (const auto& [component, size] : figures.component_keyframes) sizes.push_back(size);
   return sizes;
 }
 
-void add_counts(const MapFigures& figures, TextBuilder& text) {
+void add_counts(const MapStatistics& figures, TextBuilder& text) {
   const MapInfo& info = figures.info;
   text.add("keyframes    {}, {:.0f} features each\n", info.keyframes.size(),
            ratio(info.features, info.keyframes.size()));
-  text.add("parts        {}", figures.part_keyframes.size());
-  if (figures.part_keyframes.size() > 1) text.add(", of {} keyframes", fmt::join(part_sizes(figures), ", "));
+  text.add("parts        {}", figures.component_keyframes.size());
+  if (figures.component_keyframes.size() > 1)
+    text.add(", of {} keyframes", fmt::join(component_sizes(figures), ", "));
   text.add("\nlandmarks    {}\n", info.landmarks);
-  text.add("sightings    {}, {:.2f} per landmark, {} at most\n", info.sightings,
-           ratio(info.sightings, info.landmarks), figures.most_sightings);
+  text.add("sightings    {}, {:.2f} per landmark, {} at most\n", info.observations,
+           ratio(info.observations, info.landmarks), figures.most_observations);
 }
 
 void add_header(const MapInfo& info, TextBuilder& text) {
@@ -57,7 +58,7 @@ void add_header(const MapInfo& info, TextBuilder& text) {
 }
 
 /// Adds a row for each indicator; metres if its name does not say otherwise.
-void add_indicators(const MapFigures& figures, TextBuilder& text) {
+void add_indicators(const MapStatistics& figures, TextBuilder& text) {
   if (figures.info.landmarks == 0) return;
   text.add("\n{:<16}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "indicator", "min", "5 %", "median", "95 %",
            "max", "mean");
@@ -75,7 +76,7 @@ void add_indicators(const MapFigures& figures, TextBuilder& text) {
              figures.without_covariance);
 }
 
-Json indicators_json(const MapFigures& figures) {
+Json indicators_json(const MapStatistics& figures) {
   Json json = Json::object();
   for (const auto& [name, values] : figures.indicators) {
     json[name]["count"] = values.count();
@@ -88,17 +89,17 @@ Json indicators_json(const MapFigures& figures) {
 
 }  // namespace
 
-std::string format_map_json(const std::filesystem::path& folder, const MapFigures& figures) {
+std::string format_map_json(const std::filesystem::path& folder, const MapStatistics& figures) {
   const MapInfo& info = figures.info;
   Json json;
   json["map"] = folder.string();
   json["keyframes"] = info.keyframes.size();
   json["features"] = info.features;
-  json["parts"] = part_sizes(figures);
+  json["parts"] = component_sizes(figures);
   json["landmarks"] = info.landmarks;
-  json["sightings"] = info.sightings;
-  json["sightings_per_landmark"] = ratio(info.sightings, info.landmarks);
-  json["most_sightings"] = figures.most_sightings;
+  json["sightings"] = info.observations;
+  json["sightings_per_landmark"] = ratio(info.observations, info.landmarks);
+  json["most_sightings"] = figures.most_observations;
   json["descriptor"] = info.descriptor.name;
   json["camera"] = {{"fx", info.rig.fx}, {"fy", info.rig.fy}, {"cx", info.rig.cx}, {"cy", info.rig.cy}};
   json["baseline_m"] = info.rig.baseline;
@@ -113,7 +114,7 @@ std::string format_map_json(const std::filesystem::path& folder, const MapFigure
   return format_document(json);
 }
 
-std::string format_map_text(const std::filesystem::path& folder, const MapFigures& figures) {
+std::string format_map_text(const std::filesystem::path& folder, const MapStatistics& figures) {
   TextBuilder text;
   text.add("map          {}\n", folder.string());
   add_counts(figures, text);

@@ -6,8 +6,8 @@
 namespace cairn {
 namespace {
 
-MapFigures small_map() {
-  MapFigures figures;
+MapStatistics small_map() {
+  MapStatistics figures;
   MapInfo& info = figures.info;
   info.rig = {500, 510, 319.5, 239.5, 0.075};
   info.width = 640;
@@ -16,9 +16,9 @@ MapFigures small_map() {
   info.keyframes.resize(5);
   info.features = 4000;
   info.landmarks = 2;
-  info.sightings = 5;
-  figures.part_keyframes = {{0, 3}, {1, 2}};
-  figures.most_sightings = 3;
+  info.observations = 5;
+  figures.component_keyframes = {{0, 3}, {1, 2}};
+  figures.most_observations = 3;
   figures.indicators.push_back({"rms_px", {}});
   figures.indicators.back().values.add(0.5);
   figures.indicators.back().values.add(0.5);
@@ -46,7 +46,7 @@ errors that landmarks have in common, as of poses that are off, are not in them
 }
 
 TEST(MapReport, tells_the_origin_and_unknown_covariances) {
-  MapFigures figures = small_map();
+  MapStatistics figures = small_map();
   figures.without_covariance = 1;
   figures.info.origin = GeodeticOrigin{49, 8.5, 115};
   const std::string text = format_map_text("map", figures);
@@ -65,8 +65,8 @@ TEST(MapReport, tells_the_origin_and_unknown_covariances) {
 }
 
 TEST(MapReport, has_no_indicators_of_an_empty_map) {
-  MapFigures figures = small_map();
-  figures.info.landmarks = figures.info.sightings = 0;
+  MapStatistics figures = small_map();
+  figures.info.landmarks = figures.info.observations = 0;
   EXPECT_EQ(format_map_text("map", figures).find("indicator"), std::string::npos);
 }
 

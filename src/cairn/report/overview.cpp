@@ -64,12 +64,12 @@ Eigen::Vector3d fit_eye(const std::vector<SurfaceCell>& cells, const std::vector
   return world_from_view * eye_in_view;
 }
 
-View fit_view(const CloudSurface& surface, const std::vector<Rigid3>& path, const Eigen::Vector3d& up,
-              double azimuth, double elevation, int width, int height) {
+RenderCamera fit_view(const CloudSurface& surface, const std::vector<Rigid3>& path, const Eigen::Vector3d& up,
+                      double azimuth, double elevation, int width, int height) {
   const Eigen::Vector3d side = up.unitOrthogonal();
   const Eigen::Vector3d level = std::cos(azimuth) * side + std::sin(azimuth) * up.cross(side);
   const Eigen::Matrix3d rotation = look_along(std::cos(elevation) * level - std::sin(elevation) * up, up);
-  View view{view_camera(width, height), {}};
+  RenderCamera view{view_camera(width, height), {}};
   view.world_from_camera.rotation = Eigen::Quaterniond(rotation);
   view.world_from_camera.translation = fit_eye(surface.cells(), path, rotation, view.camera);
   return view;
@@ -77,7 +77,7 @@ View fit_view(const CloudSurface& surface, const std::vector<Rigid3>& path, cons
 
 /// How much of the cloud a view shows: each pixel of a small picture counts as much as what it shows faces
 /// the viewer; what faces away is not drawn.
-double score(const CloudSurface& surface, const View& view) {
+double score(const CloudSurface& surface, const RenderCamera& view) {
   const Rigid3 camera_from_world = view.world_from_camera.inverse();
   DepthImage depth(view.camera.width, view.camera.height, 1e9F);
   Image<float> facing(view.camera.width, view.camera.height, 0.0F);
@@ -128,7 +128,8 @@ Eigen::Vector3d estimate_up(const CloudSurface& surface, const std::vector<Rigid
   return up;
 }
 
-View overview_of(const CloudSurface& surface, const std::vector<Rigid3>& path, int width, int height) {
+RenderCamera overview_of(const CloudSurface& surface, const std::vector<Rigid3>& path, int width,
+                         int height) {
   constexpr int kAzimuths = 24;
   constexpr int kSmallWidth = 200;
   constexpr double kDegree = std::numbers::pi / 180.0;

@@ -14,8 +14,8 @@ namespace cairn {
 
 /// A view of the whole cloud, obliquely from above, from the side that shows most of it. Assumes that the
 /// picture is drawn with the surface (what faces away left out).
-[[nodiscard]] View overview_of(const CloudSurface& surface, const std::vector<Rigid3>& path, int width,
-                               int height);
+[[nodiscard]] RenderCamera overview_of(const CloudSurface& surface, const std::vector<Rigid3>& path,
+                                       int width, int height);
 
 /// An overview picture of a cloud with the path that made it: the above together, with keyframes marked.
 /// `voxel_size` is the cloud's, metres.

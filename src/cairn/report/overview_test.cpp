@@ -57,7 +57,7 @@ TEST(Overview, a_wall_does_not_change_what_is_up) {
 
 TEST(Overview, shows_the_cloud_and_the_whole_path_from_above) {
   const Cloud cloud = floor(0);
-  const View view = overview_of(CloudSurface(cloud, level_path(), 0.1), level_path(), 320, 200);
+  const RenderCamera view = overview_of(CloudSurface(cloud, level_path(), 0.1), level_path(), 320, 200);
   EXPECT_GT(view.world_from_camera.translation.z(), 1);
   const auto pixel_of = [&](const Eigen::Vector3d& point) {
     return view.camera.project(view.world_from_camera.inverse() * point).value_or(Eigen::Vector2d(-1, -1));

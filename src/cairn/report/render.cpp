@@ -21,7 +21,7 @@ struct Canvas {
   DepthImage depth;
 };
 
-Canvas make_canvas(const View& view, int scale) {
+Canvas make_canvas(const RenderCamera& view, int scale) {
   Camera camera = view.camera;
   camera.width *= scale;
   camera.height *= scale;
@@ -144,7 +144,7 @@ RgbImage average_down(const RgbImage& large, int scale) {
 
 }  // namespace
 
-RgbImage render_cloud(const Cloud& cloud, const View& view, const RenderOptions& options,
+RgbImage render_cloud(const Cloud& cloud, const RenderCamera& view, const RenderOptions& options,
                       const CloudSurface* surface, const CameraPath* path) {
   require(view.camera.model == CameraModel::pinhole, "a view has no distortion");
   require(view.camera.width > 0 && view.camera.height > 0, "a view has pixels");

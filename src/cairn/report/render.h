@@ -12,7 +12,7 @@
 namespace cairn {
 
 /// From where a picture is taken: a camera without distortion and its pose.
-struct View {
+struct RenderCamera {
   Camera camera;
   Rigid3 world_from_camera;
 };
@@ -34,7 +34,8 @@ struct RenderOptions {
 /// (eye-dome lighting, Boucheny 2009, chapter 4) so that structure can be read. With `surface`, what faces
 /// away from the viewer is left out: a room seen from outside opens like a doll's house. Deterministic; one
 /// thread.
-[[nodiscard]] RgbImage render_cloud(const Cloud& cloud, const View& view, const RenderOptions& options = {},
-                                    const CloudSurface* surface = nullptr, const CameraPath* path = nullptr);
+[[nodiscard]] RgbImage render_cloud(const Cloud& cloud, const RenderCamera& view,
+                                    const RenderOptions& options = {}, const CloudSurface* surface = nullptr,
+                                    const CameraPath* path = nullptr);
 
 }  // namespace cairn

@@ -57,7 +57,7 @@ CameraPath turning_path() {
   return path;
 }
 
-View looking_at_wall(double distance) {
+RenderCamera looking_at_wall(double distance) {
   return {testkit::small_camera(), {Eigen::Quaterniond::Identity(), {0, 0, -distance}}};
 }
 
@@ -134,7 +134,7 @@ TEST(Overview, LooksIntoTheRoomFromAbove) {
   const CameraPath path = turning_path();
   const Cloud cloud = room();
   const CloudSurface surface(cloud, path.world_from_camera, 0.1);
-  const View view = overview_of(surface, path.world_from_camera, 320, 200);
+  const RenderCamera view = overview_of(surface, path.world_from_camera, 320, 200);
   EXPECT_GT(view.world_from_camera.translation.z(), 2.4);
   const RgbImage picture = draw_overview(cloud, path, static_cast<double>(kStep), 320, 200);
   int floor = 0, ceiling = 0;
@@ -158,7 +158,7 @@ TEST(Render, PicturesAreTheSameEachTime) {
 }
 
 TEST(Render, RefusesAViewWithDistortion) {
-  View view = looking_at_wall(1);
+  RenderCamera view = looking_at_wall(1);
   view.camera.model = CameraModel::radtan;
   EXPECT_THROW((void)render_cloud({}, view), PreconditionError);
 }

@@ -8,15 +8,15 @@ namespace cairn {
 FrameCounts count_frames(const SlamResult& result) {
   FrameCounts counts;
   std::vector<int> inliers;
-  const std::int32_t main_part = result.main_part();
-  for (const FrameTrack& track : result.frames) {
+  const std::int32_t main_component = result.main_component();
+  for (const TrackingResult& track : result.frames) {
     ++counts.frames;
     counts.relocalized += track.relocalized ? 1 : 0;
-    const bool in_main = track.tracked() && result.map.part_of(*track.reference) == main_part;
+    const bool in_main = track.tracked() && result.map.component_of(*track.reference) == main_component;
     counts.tracked += in_main ? 1 : 0;
     counts.elsewhere += track.tracked() && !in_main ? 1 : 0;
-    counts.too_far += track.decision == KeyframeDecision::too_far ? 1 : 0;
-    counts.not_matched += track.decision == KeyframeDecision::not_matched ? 1 : 0;
+    counts.too_far += track.status == TrackingStatus::implausible ? 1 : 0;
+    counts.not_matched += track.status == TrackingStatus::lost ? 1 : 0;
     if (track.tracked()) inliers.push_back(track.inliers);
   }
   if (inliers.empty()) return counts;
@@ -26,8 +26,8 @@ FrameCounts count_frames(const SlamResult& result) {
   return counts;
 }
 
-double share_percent(std::int64_t part, std::int64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+double share_percent(std::int64_t component, std::int64_t whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(component) / static_cast<double>(whole) : 0.0;
 }
 
 std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times) {
@@ -38,7 +38,7 @@ std::vector<std::pair<const char*, const std::vector<double>*>> stages(const Sta
 
 bool is_start_found(const SlamResult& result) {
   return result.start_keyframes > 0 && !result.trajectory().empty() &&
-         result.map.part_of({0}) == result.main_part();
+         result.map.component_of({0}) == result.main_component();
 }
 
 }  // namespace cairn

@@ -12,8 +12,8 @@ namespace cairn {
 /// Holds how many frames of a run had which outcome.
 struct FrameCounts {
   std::int64_t frames = 0;       ///< decoded
-  std::int64_t tracked = 0;      ///< in the main part of the map
-  std::int64_t elsewhere = 0;    ///< tracked in another part
+  std::int64_t tracked = 0;      ///< in the main component of the map
+  std::int64_t elsewhere = 0;    ///< tracked in another component
   std::int64_t relocalized = 0;  ///< found again after being lost
   std::int64_t too_far = 0, not_matched = 0;
   int median_inliers = 0;  ///< of tracked frames; 0 of none
@@ -22,8 +22,8 @@ struct FrameCounts {
 /// Counts the frames of a run by what became of them.
 [[nodiscard]] FrameCounts count_frames(const SlamResult& result);
 
-/// Returns `part` of `whole` in percent; 0 of nothing.
-[[nodiscard]] double share_percent(std::int64_t part, std::int64_t whole);
+/// Returns `component` of `whole` in percent; 0 of nothing.
+[[nodiscard]] double share_percent(std::int64_t component, std::int64_t whole);
 
 /// Returns the stages with their names and seconds, in the order of the data. They point into `times`.
 [[nodiscard]] std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times);

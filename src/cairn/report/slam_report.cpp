@@ -40,7 +40,7 @@ Json loops_json(const LoopReport& loops) {
           {"unconfirmed", loops.unconfirmed},
           {"joined", loops.joined},
           {"closed", loops.closed},
-          {"parts_joined", loops.parts_joined}};
+          {"parts_joined", loops.components_joined}};
 }
 
 }  // namespace
@@ -73,21 +73,22 @@ std::string format_slam_json(const Sequence& sequence, const SlamResult& result,
 
 std::string format_frames_csv(const SlamResult& result) {
   std::string text = "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n";
-  for (const FrameTrack& track : result.frames) {
-    const std::string part = track.reference ? fmt::format("{}", result.map.part_of(*track.reference)) : "";
+  for (const TrackingResult& track : result.frames) {
+    const std::string component =
+        track.reference ? fmt::format("{}", result.map.component_of(*track.reference)) : "";
     const std::string reference = track.reference ? fmt::format("{}", track.reference->value) : "";
     text += fmt::format("{},{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
-                        to_string(track.decision), track.relocalized ? 1 : 0, part, reference, track.matches,
-                        track.inliers);
+                        to_string(track.status), track.relocalized ? 1 : 0, component, reference,
+                        track.matches, track.inliers);
   }
   return text;
 }
 
 CameraPath main_path(const SlamResult& result) {
   CameraPath path;
-  const std::int32_t part = result.main_part();
-  for (const FrameTrack& track : result.frames) {
-    if (!track.tracked() || result.map.part_of(*track.reference) != part) continue;
+  const std::int32_t component = result.main_component();
+  for (const TrackingResult& track : result.frames) {
+    if (!track.tracked() || result.map.component_of(*track.reference) != component) continue;
     const Keyframe& reference = result.map[*track.reference];
     const bool is_keyframe = track.frame == reference.observed.frame && !reference.erased;
     if (is_keyframe) path.keyframes.push_back(path.world_from_camera.size());

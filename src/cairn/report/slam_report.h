@@ -38,7 +38,8 @@ struct SlamSummary {
 /// Returns frames.csv: a line of names, then one row for each frame that was decoded: what became of it.
 [[nodiscard]] std::string format_frames_csv(const SlamResult& result);
 
-/// Returns the path of the camera through the main part of the map, with its keyframes, for draw_overview.
+/// Returns the path of the camera through the main component of the map, with its keyframes, for
+/// draw_overview.
 [[nodiscard]] CameraPath main_path(const SlamResult& result);
 
 }  // namespace cairn

@@ -8,37 +8,37 @@
 namespace cairn {
 namespace {
 
-FrameTrack track_of(std::int32_t frame, KeyframeDecision decision, std::optional<KeyframeId> reference) {
-  FrameTrack track;
+TrackingResult track_of(std::int32_t frame, TrackingStatus status, std::optional<KeyframeId> reference) {
+  TrackingResult track;
   track.frame = {frame};
   track.stamp_ns = 500'000'000LL * frame;
-  track.decision = decision;
+  track.status = status;
   track.reference = reference;
   track.matches = reference ? 50 : 3;
   track.inliers = reference ? 40 + frame : 0;
   return track;
 }
 
-/// Six frames: two keyframes of one part with a frame between them, a lost frame, one that went too far, and
-/// the keyframe of another part, which was found again.
+/// Six frames: two keyframes of one component with a frame between them, a lost frame, one that went too far,
+/// and the keyframe of another component, which was found again.
 struct SlamRun : testing::Test {
   SlamRun() {
     sequence.folder = "demo/room";
     sequence.frames.resize(7);
     result.map = Map(Rig{500, 500, 320, 240, 0.1}, "ORB");
-    for (const std::int32_t part : {0, 0, 1}) {
+    for (const std::int32_t component : {0, 0, 1}) {
       const auto number = static_cast<std::int32_t>(result.map.keyframes().size());
       ObservedFrame observed;
       observed.frame = {number == 2 ? 5 : 2 * number};
       result.map.add_keyframe(std::move(observed), {Eigen::Quaterniond::Identity(), {1.0 * number, 0, 0}},
-                              KeyframeId{}, part);
+                              KeyframeId{}, component);
     }
-    result.frames = {track_of(0, KeyframeDecision::keyframe, KeyframeId{0}),
-                     track_of(1, KeyframeDecision::too_close, KeyframeId{0}),
-                     track_of(2, KeyframeDecision::keyframe, KeyframeId{1}),
-                     track_of(3, KeyframeDecision::not_matched, std::nullopt),
-                     track_of(4, KeyframeDecision::too_far, std::nullopt),
-                     track_of(5, KeyframeDecision::keyframe, KeyframeId{2})};
+    result.frames = {track_of(0, TrackingStatus::keyframe, KeyframeId{0}),
+                     track_of(1, TrackingStatus::tracked, KeyframeId{0}),
+                     track_of(2, TrackingStatus::keyframe, KeyframeId{1}),
+                     track_of(3, TrackingStatus::lost, std::nullopt),
+                     track_of(4, TrackingStatus::implausible, std::nullopt),
+                     track_of(5, TrackingStatus::keyframe, KeyframeId{2})};
     result.frames[1].reference_from_frame.translation = {0.5, 0, 0};
     result.frames[5].relocalized = true;
     result.loops.tried = 9;
@@ -60,10 +60,10 @@ TEST_F(SlamRun, has_a_row_for_each_frame) {
             "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n"
             "0,0.000000000,keyframe,0,0,0,50,40\n"
             "1,0.500000000," +
-                std::string(to_string(KeyframeDecision::too_close)) +
+                std::string(to_string(TrackingStatus::tracked)) +
                 ",0,0,0,50,41\n2,1.000000000,keyframe,0,0,1,50,42\n3,1.500000000," +
-                std::string(to_string(KeyframeDecision::not_matched)) + ",0,,,3,0\n4,2.000000000," +
-                std::string(to_string(KeyframeDecision::too_far)) +
+                std::string(to_string(TrackingStatus::lost)) + ",0,,,3,0\n4,2.000000000," +
+                std::string(to_string(TrackingStatus::implausible)) +
                 ",0,,,3,0\n5,2.500000000,keyframe,1,1,2,50,45\n");
 }
 
@@ -116,7 +116,7 @@ TEST_F(SlamRun, tells_whether_the_start_map_was_recognised) {
                 .find("\nstart map    recognised; the trajectory is in its world, from frame 0 on\n"
                       "keyframes    3, 2 of this run\n"),
             std::string::npos);
-  result.map.set_part(KeyframeId{0}, 1);  // the run has most of its frames in another part
+  result.map.set_component(KeyframeId{0}, 1);  // the run has most of its frames in another component
   result.frames[1].reference = KeyframeId{1};
   EXPECT_NE(format_slam_text(sequence, result, summary)
                 .find("\nstart map    not recognised: the trajectory is in a world of its own, a new part of "
@@ -148,7 +148,7 @@ TEST_F(SlamRun, is_told_in_json) {
   EXPECT_EQ(json["peak_memory_mb"], 80.4);
 }
 
-TEST_F(SlamRun, has_a_path_through_its_main_part) {
+TEST_F(SlamRun, has_a_path_through_its_main_component) {
   const CameraPath path = main_path(result);
   ASSERT_EQ(path.world_from_camera.size(), 3U);
   EXPECT_EQ(path.world_from_camera[1].translation, Eigen::Vector3d(0.5, 0, 0));

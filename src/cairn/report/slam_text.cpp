@@ -34,9 +34,9 @@ void add_start(const SlamResult& result, TextBuilder& text) {
     text.add("start map    not recognised: the trajectory is in a world of its own, a new part of the map\n");
     return;
   }
-  const std::int32_t part = result.main_part();
-  const auto in_main = [&](const FrameTrack& track) {
-    return track.tracked() && result.map.part_of(*track.reference) == part;
+  const std::int32_t component = result.main_component();
+  const auto in_main = [&](const TrackingResult& track) {
+    return track.tracked() && result.map.component_of(*track.reference) == component;
   };
   const auto first = std::find_if(result.frames.begin(), result.frames.end(), in_main);
   text.add("start map    recognised; the trajectory is in its world, from frame {} on\n", first->frame.value);
@@ -50,7 +50,7 @@ void add_map(const SlamResult& result, TextBuilder& text) {
   text.add("landmarks    {}\n", result.map.landmark_ids().size());
   text.add("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
            loops.closed, loops.joined, loops.rejected + loops.unconfirmed, loops.tried);
-  if (loops.parts_joined > 0) text.add("parts        {} joined\n", loops.parts_joined);
+  if (loops.components_joined > 0) text.add("parts        {} joined\n", loops.components_joined);
 }
 
 void add_files(const SlamSummary& summary, TextBuilder& text) {

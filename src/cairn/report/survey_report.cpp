@@ -35,18 +35,18 @@ Json to_json(const SurveyResult& result) {
   Json json;
   json["frames"] = {{"mapped", counts.frames},
                     {"without_pose", counts.without_pose},
-                    {"standing", counts.standing},
+                    {"standing", counts.stationary},
                     {"unreadable", counts.unreadable}};
   json["features"] = {
       {"found", counts.features}, {"with_depth", counts.measured}, {"matched_to_tracks", counts.matched}};
   json["tracks"] = {
-      {"finished", counts.tracks}, {"too_short", counts.too_short}, {"contradictory", counts.contradictory}};
+      {"finished", counts.tracks}, {"too_short", counts.too_short}, {"contradictory", counts.inconsistent}};
   for (std::size_t i = 0; i < kCleaningRules; ++i)
     json["cleaned"][std::string(to_string(static_cast<CleaningRule>(i)))] = counts.cleaned[i];
   json["merged"] = counts.merged;
   json["landmarks"] = counts.landmarks;
-  json["sightings"] = counts.sightings;
-  json["dropped_sightings"] = counts.dropped_sightings;
+  json["sightings"] = counts.observations;
+  json["dropped_sightings"] = counts.dropped_observations;
   json["noise"] = {{"variance_factor", result.noise.scale}, {"degrees_of_freedom", result.noise.freedom}};
   json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
   json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},
@@ -75,7 +75,7 @@ std::string describe_cleaning(const SurveyCounts& counts) {
 void add_frames(const SurveyCounts& counts, const SurveySummary& summary, TextBuilder& text) {
   text.add("frames       {} of {} mapped", counts.frames, summary.sequence_frames);
   if (counts.without_pose > 0) text.add(", {} without pose", counts.without_pose);
-  if (counts.standing > 0) text.add(", {} without motion", counts.standing);
+  if (counts.stationary > 0) text.add(", {} without motion", counts.stationary);
   if (counts.unreadable > 0) text.add(", {} unreadable", counts.unreadable);
   text.add("\n");
 }
@@ -119,10 +119,10 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
            ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
            ratio(counts.matched, counts.frames));
   text.add("tracks       {}, {} in too few frames, {} contradict themselves\n", counts.tracks,
-           counts.too_short, counts.contradictory);
+           counts.too_short, counts.inconsistent);
   text.add("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
   text.add("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
-           ratio(counts.sightings, counts.landmarks));
+           ratio(counts.observations, counts.landmarks));
   const std::string by_poses = result.pose_std_rms_m > 0
                                    ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
                                    : "none stated of the poses";

@@ -17,12 +17,12 @@ SurveyResult small_survey() {
   result.counts.matched = 5'000;
   result.counts.tracks = 700;
   result.counts.too_short = 300;
-  result.counts.contradictory = 20;
+  result.counts.inconsistent = 20;
   result.counts.cleaned[static_cast<std::size_t>(CleaningRule::frames)] = 50;
   result.counts.cleaned[static_cast<std::size_t>(CleaningRule::view_angle)] = 1;
   result.counts.merged = 9;
   result.counts.landmarks = 300;
-  result.counts.sightings = 1'200;
+  result.counts.observations = 1'200;
   result.image_std_rms_m = 0.0125;
   result.pose_check.pairs = 12;
   result.pose_check.error_px = std::numeric_limits<double>::infinity();
@@ -55,7 +55,7 @@ memory       123 MB at most
 TEST(SurveyText, tells_what_is_out_of_the_ordinary) {
   SurveyResult result = small_survey();
   result.counts.without_pose = 1;
-  result.counts.standing = 2;
+  result.counts.stationary = 2;
   result.counts.unreadable = 3;
   result.counts.cleaned = {};
   result.resumed_at = 6;

@@ -65,7 +65,7 @@ std::string format_two_view_json(const TwoViewReport& report) {
   if (report.scale)
     json["scale"] = {{"points", report.scale->points},
                      {"metres", report.scale->metres_per_unit},
-                     {"spread", report.scale->spread}};
+                     {"spread", report.scale->relative_mad}};
   json["points"] = result.points.size();
   if (!result.points.empty()) json["rms_px"] = rms_px(report);
   return format_document(json);

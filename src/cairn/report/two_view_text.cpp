@@ -68,7 +68,7 @@ void add_chosen(const TwoViewReport& report, TextBuilder& text) {
 std::string scale_text(const MetricScale& scale) {
   if (scale.points == 0) return "not known: no point has a depth";
   return fmt::format("{:.6g} m between the cameras, median over {} points with depth, spread {:.2g} %",
-                     scale.metres_per_unit, scale.points, 100 * scale.spread);
+                     scale.metres_per_unit, scale.points, 100 * scale.relative_mad);
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ InputError::Details why_no_pair(RectificationStatus status, const LeftFromRight&
 
 }  // namespace
 
-void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calibration& calibration) {
+void set_raw_stereo(const StereoPair& pair, const SourceLocation& place, Calibration& calibration) {
   const StereoRectification rectification = rectify_stereo(pair);
   if (rectification.status != RectificationStatus::ok) {
     InputError::Details why = why_no_pair(rectification.status, pair.left_from_right);

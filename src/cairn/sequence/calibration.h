@@ -50,14 +50,14 @@ struct Calibration {
 };
 
 /// Where something of a calibration stands, for messages; line 0 where it means nothing.
-struct CalibrationPlace {
+struct SourceLocation {
   std::string file;
   int line = 0;
 };
 
 /// Rectifies a pair: sets camera, baseline and raw_stereo. InputError that names `place` for cameras that
 /// make no pair: in one place, right and left exchanged, without a view in common.
-void set_raw_stereo(const StereoPair& pair, const CalibrationPlace& place, Calibration& calibration);
+void set_raw_stereo(const StereoPair& pair, const SourceLocation& place, Calibration& calibration);
 
 /// Where the camera whose images FrameLoader gives sits on a body that has the recorded one at
 /// `body_from_camera`: rectification turns it.

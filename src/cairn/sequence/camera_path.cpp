@@ -83,7 +83,7 @@ StreetPath::StreetPath(const Shape& shape) : shape_(shape) {
   const double straight_y = straights / (1 + shape.aspect), straight_x = straights - straight_y;
   const auto steps = static_cast<std::size_t>(std::ceil(shape.length / 0.01));
   const double step = shape.length / static_cast<double>(steps);
-  places_.resize(steps + 1);
+  points_.resize(steps + 1);
   times_.resize(steps + 1);
   for (std::size_t i = 0; i < steps; ++i) {
     const CornerPlace middle =
@@ -91,31 +91,31 @@ StreetPath::StreetPath(const Shape& shape) : shape_(shape) {
     const double heading = kTurn / 4 * (middle.corners_behind + smoother_step(middle.into_corner));
     const double slow = std::sin(std::numbers::pi * middle.into_corner);
     const double speed = 1 - (1 - shape.corner_speed) * slow * slow;
-    places_[i + 1].position =
-        places_[i].position + step * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+    points_[i + 1].position =
+        points_[i].position + step * Eigen::Vector2d(std::cos(heading), std::sin(heading));
     times_[i + 1] = times_[i] + step / speed;
   }
   for (std::size_t i = 0; i <= steps; ++i) {
     const CornerPlace here =
         corner_place(static_cast<double>(i) * step, straight_x, straight_y, shape.corner_length);
-    places_[i].heading = kTurn / 4 * (here.corners_behind + smoother_step(here.into_corner));
+    points_[i].heading = kTurn / 4 * (here.corners_behind + smoother_step(here.into_corner));
     times_[i] /= times_.back();
   }
   const double half_y =
-      places_[steps / 2].position.y() / 2;  // it begins at (0, 0), in the lower side's middle
+      points_[steps / 2].position.y() / 2;  // it begins at (0, 0), in the lower side's middle
   half_extent_ = {0, half_y};
-  for (Place& place : places_) {
+  for (PathPoint& place : points_) {
     place.position.y() -= half_y;
     half_extent_.x() = std::max(half_extent_.x(), place.position.x());
   }
 }
 
-StreetPath::Place StreetPath::at(double share) const {
+StreetPath::PathPoint StreetPath::at(double share) const {
   require(share >= 0 && share <= 1, "a share is in [0, 1]");
   const auto after = std::upper_bound(times_.begin() + 1, times_.end() - 1, share);
   const auto i = static_cast<std::size_t>(after - times_.begin());
   const double t = (share - times_[i - 1]) / (times_[i] - times_[i - 1]);
-  const Place &a = places_[i - 1], &b = places_[i];
+  const PathPoint &a = points_[i - 1], &b = points_[i];
   return {a.position + t * (b.position - a.position), a.heading + t * (b.heading - a.heading)};
 }
 

@@ -44,22 +44,22 @@ class StreetPath {
     double corner_length = 24;  ///< metres of way in a corner
     double corner_speed = 0.7;  ///< speed in the middle of a corner over that on a straight
   };
-  struct Place {
+  struct PathPoint {
     Eigen::Vector2d position{0, 0};  ///< metres; the block's middle is (0, 0)
     double heading = 0;              ///< radians about z from x
   };
 
   explicit StreetPath(const Shape& shape);
   /// `share` of the time of one round, in [0, 1].
-  [[nodiscard]] Place at(double share) const;
+  [[nodiscard]] PathPoint at(double share) const;
   /// Half of the block's extent in x and y, to the middle of the road.
   [[nodiscard]] const Eigen::Vector2d& half_extent() const { return half_extent_; }
 
  private:
   Shape shape_;
   Eigen::Vector2d half_extent_;
-  std::vector<Place> places_;  // at equal steps of the way
-  std::vector<double> times_;  // when each is reached, last = 1
+  std::vector<PathPoint> points_;  // at equal steps of the way
+  std::vector<double> times_;      // when each is reached, last = 1
 };
 
 }  // namespace cairn

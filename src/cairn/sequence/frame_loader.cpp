@@ -20,7 +20,7 @@ void expect_size(const ImageSize& size, const Camera& camera, const std::filesys
 }
 
 /// An image of one camera of a stereo pair, or of the only one, as the calibration's camera sees it.
-struct CameraView {
+struct Rectifier {
   Camera raw;  ///< of the images on disk
   std::optional<ImageRemap> rectify;
 
@@ -31,8 +31,8 @@ struct CameraView {
   }
 };
 
-CameraView rectified_view(const Camera& raw, const Camera& rectified,
-                          const Eigen::Quaterniond& rectified_from_raw) {
+Rectifier rectifier_of(const Camera& raw, const Camera& rectified,
+                       const Eigen::Quaterniond& rectified_from_raw) {
   return {raw, ImageRemap(raw, rectified, rectified_from_raw.conjugate())};
 }
 
@@ -41,7 +41,7 @@ CameraView rectified_view(const Camera& raw, const Camera& rectified,
 struct FrameLoader::Impl {
   const Sequence* sequence;
   std::optional<DepthRegistration> registration;
-  CameraView left, right;
+  Rectifier left, right;
 
   [[nodiscard]] const FrameFiles& files(FrameId id) const {
     require(id.valid() && id.index() < sequence->frames.size(), "a frame of the sequence");
@@ -59,8 +59,8 @@ FrameLoader::FrameLoader(const Sequence& sequence) : impl_(std::make_unique<Impl
   }
   if (calibration.raw_stereo) {
     const auto& [pair, rectification] = *calibration.raw_stereo;
-    impl_->left = rectified_view(pair.left, calibration.camera, rectification.rectified_from_left);
-    impl_->right = rectified_view(pair.right, calibration.camera, rectification.rectified_from_right);
+    impl_->left = rectifier_of(pair.left, calibration.camera, rectification.rectified_from_left);
+    impl_->right = rectifier_of(pair.right, calibration.camera, rectification.rectified_from_right);
   }
 }
 

@@ -188,7 +188,7 @@ void place_column(const fs::path& path, std::size_t field, const ColumnName& nam
          fmt::format("'{}' and '{}'", header.names[place->field], header.names[field]), "Delete one.");
   }
   const ColumnUnit unit = unit_of(path, header, field, name, quantity_of(meaning.column));
-  place = ColumnPlace{field, unit, meaning.factor};
+  place = ColumnSource{field, unit, meaning.factor};
 }
 
 bool has_any(const TableHeader& header, const ColumnTriple& triple) {

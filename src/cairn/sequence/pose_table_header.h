@@ -13,7 +13,7 @@
 
 namespace cairn {
 
-struct ColumnPlace {
+struct ColumnSource {
   std::size_t field = 0;
   ColumnUnit unit = ColumnUnit::none;
   double factor = 1;  ///< of the values
@@ -25,9 +25,9 @@ struct TableHeader {
   std::vector<std::string> names;           ///< as written
   Separator separator = Separator::blanks;  ///< of the names; the rows may have another one
   bool open_ended = false;                  ///< "..." stands behind the names
-  std::array<std::optional<ColumnPlace>, kTableColumns> places;  ///< set by check_table_header
+  std::array<std::optional<ColumnSource>, kTableColumns> places;  ///< set by check_table_header
 
-  [[nodiscard]] const std::optional<ColumnPlace>& place(TableColumn column) const {
+  [[nodiscard]] const std::optional<ColumnSource>& place(TableColumn column) const {
     return places.at(static_cast<std::size_t>(column));
   }
   [[nodiscard]] bool has(TableColumn column) const { return place(column).has_value(); }

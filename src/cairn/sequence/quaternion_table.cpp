@@ -68,7 +68,7 @@ TableHeader asl_header() {
   header.separator = Separator::commas;
   header.open_ended = true;
   const auto put = [&](TableColumn column, std::size_t field, ColumnUnit unit) {
-    header.places.at(static_cast<std::size_t>(column)) = ColumnPlace{field, unit};
+    header.places.at(static_cast<std::size_t>(column)) = ColumnSource{field, unit};
   };
   put(TableColumn::time, 0, ColumnUnit::nanosecond);
   for (std::size_t i = 0; i < 3; ++i) put(kPosition.at(i), 1 + i, ColumnUnit::metre);

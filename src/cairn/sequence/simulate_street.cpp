@@ -98,7 +98,7 @@ std::int64_t SimulatedStreet::stamp_ns(int frame) const {
 Rigid3 SimulatedStreet::street_from_camera(int frame) const {
   const double share = static_cast<double>(frame) / size();  // of the drive
   const double round = rounds_ * share;
-  const StreetPath::Place place = path_.at(round - std::floor(round));
+  const StreetPath::PathPoint place = path_.at(round - std::floor(round));
   constexpr double kHeight = 1.65;
   const auto wave = [&](double periods_a_round, double phase) {
     return std::sin(kTurn * std::round(periods_a_round) * round + phase);

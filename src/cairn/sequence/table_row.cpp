@@ -128,7 +128,7 @@ std::string_view TableRow::field(TableColumn column) const {
 }
 
 double TableRow::number(TableColumn column) const {
-  const ColumnPlace place = header_.place(column).value();
+  const ColumnSource place = header_.place(column).value();
   const double value = place.factor * file_.number(line_, place.field, to_string(column));
   return place.unit == ColumnUnit::radian ? value / kRadian : value;
 }

@@ -26,7 +26,7 @@ KeyframeId living_parent(const Map& map, KeyframeId id) {
 void add_edges(const Map& map, KeyframeId id, PoseGraph& graph) {
   const KeyframeId parent = living_parent(map, id);
   if (parent.valid()) graph.edges.push_back(edge_as_placed(map, parent, id));
-  for (const SharedView& view : covisible_keyframes(map, id, kManyShared)) {
+  for (const CovisibleKeyframe& view : covisible_keyframes(map, id, kManyShared)) {
     if (view.keyframe < id && view.keyframe != parent)
       graph.edges.push_back(edge_as_placed(map, view.keyframe, id));
   }
@@ -36,8 +36,8 @@ KeyframeId keyframe_of(std::int64_t vertex) {
   return {static_cast<std::int32_t>(vertex)};
 }
 
-std::int32_t part_of(const Map& map, std::int64_t vertex) {
-  return map[keyframe_of(vertex)].part;
+std::int32_t component_of(const Map& map, std::int64_t vertex) {
+  return map[keyframe_of(vertex)].component;
 }
 
 /// The edge between the keyframes, or those that know where these were.
@@ -63,16 +63,16 @@ Matrix6d edge_information(const Map& map, KeyframeId keyframe) {
   return information_from_std(std::max(kMinTranslationStd, translation_std), kRotationStd);
 }
 
-PoseGraph essential_graph(const Map& map, std::int32_t part, std::span<const PoseGraph::Edge> loops) {
+PoseGraph essential_graph(const Map& map, std::int32_t component, std::span<const PoseGraph::Edge> loops) {
   PoseGraph graph;
   for (const KeyframeId id : map.keyframe_ids()) {
-    if (map[id].part != part) continue;
+    if (map[id].component != component) continue;
     graph.vertices.push_back({id.value, map[id].world_from_camera});
     add_edges(map, id, graph);
   }
   for (const PoseGraph::Edge& loop : loops) {
     const PoseGraph::Edge edge = between_living(map, loop);
-    if (edge.a != edge.b && part_of(map, edge.a) == part && part_of(map, edge.b) == part)
+    if (edge.a != edge.b && component_of(map, edge.a) == component && component_of(map, edge.b) == component)
       graph.edges.push_back(edge);
   }
   if (!graph.vertices.empty()) graph.fixed = {graph.vertices.front().id};
@@ -88,20 +88,20 @@ void move_to(const PoseGraph& graph, Map& map) {
     map.move(id, vertex.world_from_vertex);
   }
   for (const LandmarkId id : map.landmark_ids()) {
-    const auto keyframe = static_cast<std::size_t>(map[id].sightings.front().keyframe.value);
+    const auto keyframe = static_cast<std::size_t>(map[id].observations.front().keyframe.value);
     map.move(id, new_from_old[keyframe] * map[id].point_in_world);
   }
 }
 
-void move_part(std::int32_t part, std::int32_t into, const Rigid3& into_from_part, Map& map) {
+void move_component(std::int32_t component, std::int32_t into, const Rigid3& into_from_component, Map& map) {
   for (const LandmarkId id : map.landmark_ids()) {
-    if (map[map[id].sightings.front().keyframe].part == part)
-      map.move(id, into_from_part * map[id].point_in_world);
+    if (map[map[id].observations.front().keyframe].component == component)
+      map.move(id, into_from_component * map[id].point_in_world);
   }
   for (const KeyframeId id : map.keyframe_ids()) {
-    if (map[id].part != part) continue;
-    map.move(id, into_from_part * map[id].world_from_camera);
-    map.set_part(id, into);
+    if (map[id].component != component) continue;
+    map.move(id, into_from_component * map[id].world_from_camera);
+    map.set_component(id, into);
   }
 }
 

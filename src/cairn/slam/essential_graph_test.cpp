@@ -35,7 +35,7 @@ Map five_keyframes() {
   }
   for (std::int32_t i = 0; i < kShared; ++i) {
     const LandmarkId shared = map.add_landmark({0, 0, 0}, {{0}, i});
-    map.add_sighting(shared, {{3}, i});
+    map.add_observation(shared, {{3}, i});
   }
   return map;
 }
@@ -54,7 +54,7 @@ TEST(EssentialGraph, joins_parents_and_keyframes_that_share_much) {
 
 TEST(EssentialGraph, sharing_less_makes_no_edge) {
   Map map = five_keyframes();
-  map.remove_sighting(map[KeyframeId{3}].landmarks[0], {3});
+  map.remove_observation(map[KeyframeId{3}].landmarks[0], {3});
   EXPECT_EQ(pairs_of(essential_graph(map, 0, {})).count({0, 3}), 0U);
 }
 
@@ -76,7 +76,7 @@ TEST(EssentialGraph, an_erased_keyframe_leaves_its_children_to_its_parent) {
   EXPECT_EQ(pairs_of(graph), (Pairs{{0, 3}, {3, 4}}));
 }
 
-TEST(EssentialGraph, keeps_to_its_part_and_to_loops_within) {
+TEST(EssentialGraph, keeps_to_its_component_and_to_loops_within) {
   Map map = five_keyframes();
   const KeyframeId other = map.add_keyframe(testkit::blank_frame(1), {}, {}, 1);
   const std::vector<PoseGraph::Edge> loops = {loop_between(1, other.value), loop_between(0, 4)};
@@ -95,7 +95,7 @@ TEST(EssentialGraph, a_loop_of_an_erased_keyframe_goes_to_its_parent) {
   EXPECT_LT(motion_norm(edge.a_from_b.inverse() * one_from_two * loop.a_from_b), 1e-12);
 }
 
-TEST(EssentialGraph, of_a_part_without_keyframes_is_empty) {
+TEST(EssentialGraph, of_a_component_without_keyframes_is_empty) {
   const PoseGraph graph = essential_graph(five_keyframes(), 1, {});
   EXPECT_TRUE(graph.vertices.empty() && graph.edges.empty() && graph.fixed.empty());
 }
@@ -126,7 +126,7 @@ TEST(MoveTo, landmarks_go_with_the_first_keyframe_that_shows_them) {
   EXPECT_LT((map[of_first].point_in_world - before).norm(), 1e-12);
 }
 
-TEST(MoveTo, keeps_landmarks_of_other_parts) {
+TEST(MoveTo, keeps_landmarks_of_other_components) {
   Map map = five_keyframes();
   const KeyframeId other = map.add_keyframe(testkit::blank_frame(1), place(9), {}, 1);
   const LandmarkId landmark = map.add_landmark({1, 2, 3}, {other, 0});
@@ -136,20 +136,20 @@ TEST(MoveTo, keeps_landmarks_of_other_parts) {
   EXPECT_LT((map[landmark].point_in_world - Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
 }
 
-TEST(MovePart, moves_all_of_a_part_into_another) {
+TEST(MoveComponent, moves_all_of_a_component_into_another) {
   Map map = five_keyframes();
   const KeyframeId other = map.add_keyframe(testkit::blank_frame(2), place(9), {}, 1);
   const KeyframeId erased = map.add_keyframe(testkit::blank_frame(2), place(10), other, 1);
   const LandmarkId landmark = map.add_landmark({1, 2, 3}, {other, 0});
   const Eigen::Vector3d kept = map[LandmarkId{0}].point_in_world;
   map.erase(erased);
-  const Rigid3 into_from_part{rotation_exp({0, 0, 1}), {1, 1, 1}};
-  move_part(1, 0, into_from_part, map);
-  EXPECT_LT(motion_norm(map[other].world_from_camera.inverse() * into_from_part * place(9)), 1e-12);
-  EXPECT_LT(motion_norm(map.world_from_camera(erased).inverse() * into_from_part * place(10)), 1e-12);
-  EXPECT_LT((map[landmark].point_in_world - into_from_part * Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
-  EXPECT_EQ(map.part_of(other), 0);
-  EXPECT_EQ(map.part_of(erased), 0);
+  const Rigid3 into_from_component{rotation_exp({0, 0, 1}), {1, 1, 1}};
+  move_component(1, 0, into_from_component, map);
+  EXPECT_LT(motion_norm(map[other].world_from_camera.inverse() * into_from_component * place(9)), 1e-12);
+  EXPECT_LT(motion_norm(map.world_from_camera(erased).inverse() * into_from_component * place(10)), 1e-12);
+  EXPECT_LT((map[landmark].point_in_world - into_from_component * Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
+  EXPECT_EQ(map.component_of(other), 0);
+  EXPECT_EQ(map.component_of(erased), 0);
   EXPECT_EQ(map[LandmarkId{0}].point_in_world, kept);
   EXPECT_LT(motion_norm(map[KeyframeId{4}].world_from_camera.inverse() * place(4)), 1e-12);
 }

@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, const TrackedFrame& tracked) {
+void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked) {
   Remembered remembered{index, {}};
   for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
     if (!tracked.landmarks[i].valid()) continue;
@@ -19,10 +19,10 @@ void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, con
 }
 
 void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const Remembered& remembered,
-                             FrameTrack& track) {
+                             TrackingResult& track) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> observations;
-  for (const Seen& seen : remembered.seen) {
+  for (const RememberedObservation& seen : remembered.seen) {
     if (map[seen.landmark].erased()) continue;
     points.push_back(map[seen.landmark].point_in_world);
     observations.push_back({static_cast<double>(seen.u), static_cast<double>(seen.v),
@@ -39,9 +39,9 @@ void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const R
 }
 
 void FrameMemory::refine(const Map& map, const SlamOptions& options, const Executor& executor,
-                         std::vector<FrameTrack>& frames) const {
+                         std::vector<TrackingResult>& frames) const {
   executor.for_each(frames_.size(), [&](std::size_t i) {
-    FrameTrack& track = frames[frames_[i].index];
+    TrackingResult& track = frames[frames_[i].index];
     const Keyframe& reference = map[*track.reference];
     const bool is_keyframe = !reference.erased && reference.observed.frame == track.frame;
     if (!is_keyframe) refine_one(map, options, frames_[i], track);

@@ -13,25 +13,25 @@ namespace cairn {
 class FrameMemory {
  public:
   /// The frame at position `index` of the run's frames.
-  void remember(std::size_t index, const ObservedFrame& observed, const TrackedFrame& tracked);
+  void remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked);
 
   /// Solves for the poses of the remembered frames that are no keyframes any more, in the map as it is now. A
   /// frame keeps its place by its keyframe where too few of its landmarks are left or agree. Deterministic at
   /// any number of threads.
   void refine(const Map& map, const SlamOptions& options, const Executor& executor,
-              std::vector<FrameTrack>& frames) const;
+              std::vector<TrackingResult>& frames) const;
 
  private:
-  struct Seen {
+  struct RememberedObservation {
     LandmarkId landmark;
     float u = 0, v = 0, d = 0, sigma_px = 0, sigma_d_px = 0;
   };
   struct Remembered {
     std::size_t index = 0;
-    std::vector<Seen> seen;
+    std::vector<RememberedObservation> seen;
   };
   static void refine_one(const Map& map, const SlamOptions& options, const Remembered& remembered,
-                         FrameTrack& track);
+                         TrackingResult& track);
 
   std::vector<Remembered> frames_;
 };

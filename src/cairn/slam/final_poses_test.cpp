@@ -22,9 +22,9 @@ struct TrackedRun {
 
   void remember(int k) {
     const testkit::View view = maker.world.see(truth(k), k + 1);
-    TrackedFrame tracked;
+    FramePose tracked;
     for (const std::size_t point : view.points) tracked.landmarks.push_back(maker.known[point].landmark);
-    FrameTrack track;
+    TrackingResult track;
     track.frame = view.observed.frame;
     track.reference = KeyframeId{0};
     track.reference_from_frame = Rigid3{Eigen::Quaterniond::Identity(), {0, 0.02, 0}} * truth(k);
@@ -33,14 +33,14 @@ struct TrackedRun {
   }
 
   [[nodiscard]] double error(int k) const {
-    const FrameTrack& track = frames[static_cast<std::size_t>(k)];
+    const TrackingResult& track = frames[static_cast<std::size_t>(k)];
     const Rigid3 pose = maker.map.world_from_camera(*track.reference) * track.reference_from_frame;
     return motion_norm(pose.inverse() * truth(k));
   }
 
   testkit::MapMaker maker{testkit::points_ahead(400, 5)};
   FrameMemory memory;
-  std::vector<FrameTrack> frames;
+  std::vector<TrackingResult> frames;
 };
 
 TEST(FinalPoses, are_solved_for_in_the_final_map) {

@@ -11,8 +11,8 @@ IndexedMap::IndexedMap(Map map) : map_(std::move(map)) {
 }
 
 KeyframeId IndexedMap::add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_camera,
-                                    KeyframeId parent, std::int32_t part) {
-  const KeyframeId id = map_.add_keyframe(std::move(observed), world_from_camera, parent, part);
+                                    KeyframeId parent, std::int32_t component) {
+  const KeyframeId id = map_.add_keyframe(std::move(observed), world_from_camera, parent, component);
   places_.add(id.value, map_[id].observed.features.descriptors);
   return id;
 }

@@ -23,7 +23,7 @@ class IndexedMap {
 
   /// Adds a keyframe to the map (Map::add_keyframe) and to the index.
   KeyframeId add_keyframe(ObservedFrame&& observed, const Rigid3& world_from_camera, KeyframeId parent,
-                          std::int32_t part);
+                          std::int32_t component);
   /// Erases a keyframe that is not erased from the map (Map::erase) and from the index.
   void erase(KeyframeId keyframe);
 

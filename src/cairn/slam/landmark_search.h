@@ -10,7 +10,7 @@
 namespace cairn {
 
 /// A feature of a frame shows a point.
-struct FoundPoint {
+struct Correspondence {
   std::int32_t feature = -1;
   LandmarkId landmark;  ///< not valid for a point that is no landmark
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
@@ -23,8 +23,9 @@ struct FoundPoint {
 /// Looks in the frame for those of the landmarks (none erased) that it should show, by descriptor, in windows
 /// of `radius_px` (GuidedSearch). A landmark whose feature shows one already (`occupied`, one per feature;
 /// empty: none) is another of the same thing, and is not found. Ordered as `landmarks`.
-[[nodiscard]] std::vector<FoundPoint> find_landmarks(const Map& map, std::span<const LandmarkId> landmarks,
-                                                     const PosedFrame& frame, double radius_px,
-                                                     std::span<const LandmarkId> occupied = {});
+[[nodiscard]] std::vector<Correspondence> find_landmarks(const Map& map,
+                                                         std::span<const LandmarkId> landmarks,
+                                                         const PosedFrame& frame, double radius_px,
+                                                         std::span<const LandmarkId> occupied = {});
 
 }  // namespace cairn

@@ -15,14 +15,14 @@ namespace {
 constexpr double kRadius = 4;
 
 /// A point two metres ahead; what is predicted for it when it was seen from `centre`, 10 px large.
-std::optional<PredictedPlace> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
+std::optional<SearchWindow> predict_from(const Eigen::Vector3d& centre, float sigma_px = 1) {
   const ObservedFrame observed;
   const PosedFrame view{testkit::kWorldRig, observed, {}};
   Appearance appearance;
   appearance.keypoint.size = 10;
   appearance.keypoint.sigma_px = sigma_px;
   appearance.centre_in_world = centre;
-  return predict_place(view, {0, 0, 2}, appearance, kRadius);
+  return predict_window(view, {0, 0, 2}, appearance, kRadius);
 }
 
 /// Seen from two metres away, `degrees` aside.
@@ -46,8 +46,8 @@ TEST(PredictPlace, is_nowhere_behind_the_camera) {
   const PosedFrame view{testkit::kWorldRig, observed, {}};
   Appearance appearance;
   appearance.centre_in_world = {0, 0, 2};  // looking back
-  EXPECT_FALSE(predict_place(view, {0, 0, -1}, appearance, kRadius));
-  EXPECT_FALSE(predict_place(view, {0, 0, 0}, appearance, kRadius));
+  EXPECT_FALSE(predict_window(view, {0, 0, -1}, appearance, kRadius));
+  EXPECT_FALSE(predict_window(view, {0, 0, 0}, appearance, kRadius));
 }
 
 TEST(PredictPlace, is_nowhere_for_a_look_from_far_aside) {
@@ -88,7 +88,7 @@ TEST(LandmarkSearch, the_look_is_that_of_the_nearest_keyframe) {
   const Map& map = maker.map;
   int count = 0;
   for (const LandmarkId id : map.landmark_ids()) {
-    if (map[id].sightings.size() < 2) continue;
+    if (map[id].observations.size() < 2) continue;
     ++count;
     const Appearance look = nearest_appearance(map, map[id], {0.4, 0, 0});
     EXPECT_EQ(look.descriptors, &map[KeyframeId{1}].observed.features.descriptors);
@@ -107,8 +107,8 @@ struct Search {
     return maker.known[seen.points[static_cast<std::size_t>(feature)]].landmark;
   }
   /// All landmarks, from a pose that is `aside_m` wrong.
-  [[nodiscard]] std::vector<FoundPoint> find(std::span<const LandmarkId> occupied = {},
-                                             double aside_m = 0) const {
+  [[nodiscard]] std::vector<Correspondence> find(std::span<const LandmarkId> occupied = {},
+                                                 double aside_m = 0) const {
     const PosedFrame frame{maker.map.rig(), seen.observed, testkit::aside(0.25 + aside_m).inverse()};
     return find_landmarks(maker.map, maker.map.landmark_ids(), frame, kRadius, occupied);
   }
@@ -119,7 +119,7 @@ TEST(LandmarkSearch, finds_what_a_frame_shows) {
   const auto found = search.find();
   EXPECT_GT(found.size(), 150U);
   EXPECT_GE(found.size() + 5, search.seen.points.size());
-  for (const FoundPoint& one : found) {
+  for (const Correspondence& one : found) {
     EXPECT_EQ(one.landmark, search.landmark_at(one.feature));
     EXPECT_EQ(one.point_in_world, search.maker.map[one.landmark].point_in_world);
   }
@@ -131,7 +131,7 @@ TEST(LandmarkSearch, leaves_features_with_a_landmark_out) {
   for (std::size_t i = 0; i < occupied.size(); i += 2) occupied[i] = {0};
   const auto found = search.find(occupied);
   EXPECT_GT(found.size(), 70U);
-  for (const FoundPoint& one : found) EXPECT_EQ(one.feature % 2, 1);
+  for (const Correspondence& one : found) EXPECT_EQ(one.feature % 2, 1);
 }
 
 TEST(LandmarkSearch, finds_nothing_where_it_is_not_seen) {

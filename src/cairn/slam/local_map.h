@@ -10,18 +10,19 @@
 namespace cairn {
 
 /// A keyframe and how many of some landmarks it shows.
-struct SharedView {
+struct CovisibleKeyframe {
   KeyframeId keyframe;
   int shared = 0;
 };
 
 /// Keyframes that show any of the landmarks (invalid and erased ones are passed over), most first, of equal
 /// ones the later first.
-[[nodiscard]] std::vector<SharedView> keyframes_showing(const Map& map,
-                                                        std::span<const LandmarkId> landmarks);
+[[nodiscard]] std::vector<CovisibleKeyframe> keyframes_showing(const Map& map,
+                                                               std::span<const LandmarkId> landmarks);
 
 /// Keyframes that share at least `min_shared` landmarks with this one, most first; itself not.
-[[nodiscard]] std::vector<SharedView> covisible_keyframes(const Map& map, KeyframeId id, int min_shared);
+[[nodiscard]] std::vector<CovisibleKeyframe> covisible_keyframes(const Map& map, KeyframeId id,
+                                                                 int min_shared);
 
 /// The `count` nearest neighbours of a keyframe: those that share at least 15 landmarks with it (Mur-Artal et
 /// al. 2015), most first.

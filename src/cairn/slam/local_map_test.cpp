@@ -18,7 +18,7 @@ Map chain() {
     for (std::int32_t i = 0; i < 30; ++i) {
       LandmarkId& landmark = landmarks[static_cast<std::size_t>(k) * 10 + static_cast<std::size_t>(i)];
       if (landmark.valid()) {
-        map.add_sighting(landmark, {id, i});
+        map.add_observation(landmark, {id, i});
       } else {
         landmark = map.add_landmark({0, 0, 0}, {id, i});
       }
@@ -27,9 +27,9 @@ Map chain() {
   return map;
 }
 
-std::vector<std::pair<std::int32_t, int>> plain(const std::vector<SharedView>& views) {
+std::vector<std::pair<std::int32_t, int>> plain(const std::vector<CovisibleKeyframe>& views) {
   std::vector<std::pair<std::int32_t, int>> pairs;
-  for (const SharedView& view : views) pairs.emplace_back(view.keyframe.value, view.shared);
+  for (const CovisibleKeyframe& view : views) pairs.emplace_back(view.keyframe.value, view.shared);
   return pairs;
 }
 
@@ -67,7 +67,7 @@ TEST(LocalMap, a_landmark_is_given_up_when_it_is_not_seen_again_in_time) {
   for (std::int32_t k = 0; k < 5; ++k) (void)map.add_keyframe(testkit::blank_frame(3), {}, {k - 1}, 0);
   const LandmarkId lonely = map.add_landmark({0, 0, 0}, {KeyframeId{1}, 0}),
                    seen_again = map.add_landmark({0, 0, 0}, {KeyframeId{0}, 1});
-  map.add_sighting(seen_again, {KeyframeId{1}, 1});
+  map.add_observation(seen_again, {KeyframeId{1}, 1});
   EXPECT_TRUE(is_on_trial_or_confirmed(map, lonely, 3));
   EXPECT_FALSE(is_on_trial_or_confirmed(map, lonely, 2));
   EXPECT_TRUE(is_on_trial_or_confirmed(map, seen_again, 0));

@@ -15,7 +15,7 @@ namespace cairn {
 namespace {
 
 /// Whether most landmarks that the frame shows at the place found fit its present place, too.
-bool agrees_with_map(const Map& map, KeyframeId keyframe, const TrackedFrame& found) {
+bool agrees_with_map(const Map& map, KeyframeId keyframe, const FramePose& found) {
   const Rigid3 camera_from_world = map[keyframe].world_from_camera.inverse();
   int seen = 0, fit = 0;
   for (std::size_t i = 0; i < found.landmarks.size(); ++i) {
@@ -36,7 +36,8 @@ std::optional<LoopHypothesis> loop_to(const Map& map, KeyframeId candidate, Keyf
   if (!found || !refine_in_map(map, observed, options, *found) || found->inliers < options.loop_min_inliers)
     return std::nullopt;
   const Rigid3 candidate_from_current = map[candidate].world_from_camera.inverse() * found->world_from_camera;
-  const bool agrees = map[candidate].part == map[current].part && agrees_with_map(map, current, *found);
+  const bool agrees =
+      map[candidate].component == map[current].component && agrees_with_map(map, current, *found);
   return LoopHypothesis{candidate, current, candidate_from_current, found->inliers, agrees};
 }
 
@@ -100,7 +101,7 @@ bool LoopCloser::close(KeyframeId keyframe) {
   if (!loop) return false;
   const LoopVerdict verdict = judge_.judge(map_, *loop);
   if (verdict == LoopVerdict::agrees) {
-    join_landmarks(*loop);
+    fuse_landmarks(*loop);
     ++report_.joined;
     return false;
   }
@@ -109,33 +110,33 @@ bool LoopCloser::close(KeyframeId keyframe) {
     return false;
   }
   if (verdict == LoopVerdict::believed) --report_.unconfirmed;  // the one before, which it confirms
-  const bool same_part = map_[loop->candidate].part == map_[loop->current].part;
-  if (verdict == LoopVerdict::implausible || !(same_part ? bend(*loop) : join_parts(*loop))) {
+  const bool same_component = map_[loop->candidate].component == map_[loop->current].component;
+  if (verdict == LoopVerdict::implausible || !(same_component ? bend(*loop) : join_components(*loop))) {
     ++report_.rejected;
     return false;
   }
   edges_.push_back(edge_of(map_, *loop));
-  join_landmarks(*loop);
+  fuse_landmarks(*loop);
   return true;
 }
 
-/// The younger part moves: the world is where it began. False, and nothing is done, where the camera cannot
-/// have come from the one to the other in the time between.
-bool LoopCloser::join_parts(const LoopHypothesis& loop) {
-  const std::int32_t part = map_[loop.current].part, into = map_[loop.candidate].part;
-  const Rigid3 into_from_part = map_[loop.candidate].world_from_camera * loop.candidate_from_current *
-                                map_[loop.current].world_from_camera.inverse();
-  if (!can_be_joined(map_, into, part, into_from_part, options_)) return false;
-  part > into ? move_part(part, into, into_from_part, map_)
-              : move_part(into, part, into_from_part.inverse(), map_);
-  ++report_.parts_joined;
+/// The younger component moves: the world is where it began. False, and nothing is done, where the camera
+/// cannot have come from the one to the other in the time between.
+bool LoopCloser::join_components(const LoopHypothesis& loop) {
+  const std::int32_t component = map_[loop.current].component, into = map_[loop.candidate].component;
+  const Rigid3 into_from_component = map_[loop.candidate].world_from_camera * loop.candidate_from_current *
+                                     map_[loop.current].world_from_camera.inverse();
+  if (!can_be_joined(map_, into, component, into_from_component, options_)) return false;
+  component > into ? move_component(component, into, into_from_component, map_)
+                   : move_component(into, component, into_from_component.inverse(), map_);
+  ++report_.components_joined;
   return true;
 }
 
 bool LoopCloser::bend(const LoopHypothesis& loop) {
   std::vector<PoseGraph::Edge> loops = edges_;
   loops.push_back(edge_of(map_, loop));
-  PoseGraph graph = essential_graph(map_, map_[loop.current].part, loops);
+  PoseGraph graph = essential_graph(map_, map_[loop.current].component, loops);
   PoseGraphOptions options;
   options.start = PoseGraphStart::given;
   const PoseGraphReport report = optimize_pose_graph(graph, options);
@@ -145,8 +146,8 @@ bool LoopCloser::bend(const LoopHypothesis& loop) {
   return true;
 }
 
-void LoopCloser::join_landmarks(const LoopHypothesis& loop) {
-  (void)join_regions(map_, loop.candidate, loop.current, options_);
+void LoopCloser::fuse_landmarks(const LoopHypothesis& loop) {
+  (void)fuse_neighbourhoods(map_, loop.candidate, loop.current, options_);
 }
 
 }  // namespace cairn

@@ -19,7 +19,7 @@ struct LoopReport {
   int unconfirmed = 0;  ///< of these, never said again by a second keyframe
   int joined = 0;       ///< landmarks were joined, as the places agreed already
   int closed = 0;       ///< the map was bent together
-  int parts_joined = 0;
+  int components_joined = 0;
 };
 
 /// Recognises places, and bends the map together where the camera has come back to one. Deterministic at any
@@ -39,8 +39,8 @@ class LoopCloser {
   [[nodiscard]] std::vector<KeyframeId> candidates(KeyframeId keyframe) const;
   [[nodiscard]] std::optional<LoopHypothesis> verify(KeyframeId keyframe);
   bool bend(const LoopHypothesis& loop);
-  [[nodiscard]] bool join_parts(const LoopHypothesis& loop);
-  void join_landmarks(const LoopHypothesis& loop);
+  [[nodiscard]] bool join_components(const LoopHypothesis& loop);
+  void fuse_landmarks(const LoopHypothesis& loop);
 
   const SlamOptions& options_;
   const Executor& executor_;

@@ -115,8 +115,8 @@ TEST(LoopCloser, joins_the_landmarks_of_a_closed_loop) {
   (void)walk.go_round(kTurn + 4);
   int joined = 0;
   for (const LandmarkId id : walk.map().landmark_ids()) {
-    const auto& sightings = walk.map()[id].sightings;
-    joined += sightings.front().keyframe.value < 5 && sightings.back().keyframe.value >= kTurn ? 1 : 0;
+    const auto& observations = walk.map()[id].observations;
+    joined += observations.front().keyframe.value < 5 && observations.back().keyframe.value >= kTurn ? 1 : 0;
   }
   EXPECT_GT(joined, 50);
 }

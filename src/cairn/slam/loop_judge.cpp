@@ -31,7 +31,7 @@ double path_length(const Map& map, KeyframeId from, KeyframeId to) {
   double length = 0;
   for (std::int32_t k = from.value; k < to.value; ++k) {
     const Rigid3 step = map.world_from_camera({k}).inverse() * map.world_from_camera({k + 1});
-    if (map.part_of({k}) == map.part_of({k + 1})) length += step.translation.norm();
+    if (map.component_of({k}) == map.component_of({k + 1})) length += step.translation.norm();
   }
   return length;
 }
@@ -41,18 +41,18 @@ LoopVerdict LoopJudge::judge(const Map& map, const LoopHypothesis& loop) {
   const Rigid3 world_from_current = map.world_from_camera(loop.current);
   const Rigid3 corrected_from_current = map.world_from_camera(loop.candidate) * loop.candidate_from_current;
   const Rigid3 correction = world_from_current.inverse() * corrected_from_current;  // in the camera
-  const std::int32_t part = map.part_of(loop.current), into = map.part_of(loop.candidate);
-  const bool same_part = part == into;
-  if (same_part && !is_plausible(map, loop, correction)) return LoopVerdict::implausible;
+  const std::int32_t component = map.component_of(loop.current), into = map.component_of(loop.candidate);
+  const bool same_component = component == into;
+  if (same_component && !is_plausible(map, loop, correction)) return LoopVerdict::implausible;
 
   const std::optional<Pending> before = pending_;
-  pending_ = {loop.current, corrected_from_current * world_from_current.inverse(), part, into};
-  if (!before || before->part != part || before->into != into ||
+  pending_ = {loop.current, corrected_from_current * world_from_current.inverse(), component, into};
+  if (!before || before->component != component || before->into != into ||
       loop.current.value - before->current.value > kConfirmWithin)
     return LoopVerdict::unconfirmed;
   const Rigid3 expected = before->corrected_from_world * world_from_current;
   const Rigid3 difference = expected.inverse() * corrected_from_current;
-  const double size = same_part ? correction.translation.norm() : 0.0;
+  const double size = same_component ? correction.translation.norm() : 0.0;
   const bool same = difference.translation.norm() < kSameMetres + kSameShare * size &&
                     rotation_angle(difference.rotation) < kSameRadians;
   if (!same) return LoopVerdict::unconfirmed;

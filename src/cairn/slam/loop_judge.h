@@ -34,14 +34,14 @@ class LoopJudge {
   struct Pending {
     KeyframeId current;
     Rigid3 corrected_from_world;  // how the world near `current` would move
-    std::int32_t part = 0;        // it is in
+    std::int32_t component = 0;   // it is in
     std::int32_t into = 0;        // and would move into
   };
   std::optional<Pending> pending_;
 };
 
 /// Length of the way from one keyframe to a later one, through those made between in their order, metres.
-/// Steps between parts count nothing.
+/// Steps between components count nothing.
 [[nodiscard]] double path_length(const Map& map, KeyframeId from, KeyframeId to);
 
 }  // namespace cairn

@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-/// Twenty keyframes half a metre apart in a row, and in part 1 three more.
+/// Twenty keyframes half a metre apart in a row, and in component 1 three more.
 class LoopJudgeTest : public testing::Test {
  protected:
   LoopJudgeTest() {
@@ -93,17 +93,17 @@ TEST_F(LoopJudgeTest, an_implausible_one_confirms_nothing) {
 }
 
 /// Parts have no common world: any correction may be right, when two say the same.
-TEST_F(LoopJudgeTest, parts_are_joined_by_two_that_say_the_same) {
+TEST_F(LoopJudgeTest, components_are_joined_by_two_that_say_the_same) {
   EXPECT_EQ(judge_.judge(map_, loop(3, 21, testkit::aside(-95))), LoopVerdict::unconfirmed);
   EXPECT_EQ(judge_.judge(map_, loop(4, 22, testkit::aside(-95.05))), LoopVerdict::believed);
 }
 
-TEST_F(LoopJudgeTest, parts_are_not_joined_by_two_that_differ) {
+TEST_F(LoopJudgeTest, components_are_not_joined_by_two_that_differ) {
   EXPECT_EQ(judge_.judge(map_, loop(3, 21, testkit::aside(-95))), LoopVerdict::unconfirmed);
   EXPECT_EQ(judge_.judge(map_, loop(4, 22, testkit::aside(-94))), LoopVerdict::unconfirmed);
 }
 
-TEST_F(LoopJudgeTest, the_way_is_that_within_a_part) {
+TEST_F(LoopJudgeTest, the_way_is_that_within_a_component) {
   EXPECT_NEAR(path_length(map_, {2}, {6}), 2, 1e-12);
   EXPECT_NEAR(path_length(map_, {18}, {22}), 1.5, 1e-12) << "nothing between the parts";
   map_.erase(KeyframeId{4});

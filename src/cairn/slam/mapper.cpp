@@ -39,7 +39,7 @@ struct Mapper::Adjustment {
 Mapper::Mapper(const SlamOptions& options, const Executor& executor, IndexedMap& indexed, StageTimes& times)
     : options_(options), executor_(executor), indexed_(indexed), map_(indexed.edit()), times_(times) {
   for (const Keyframe& keyframe : map_.keyframes()) {
-    parts_ = std::max(parts_, keyframe.part + 1);
+    components_ = std::max(components_, keyframe.component + 1);
     const Rigid3 world_from_parent =
         keyframe.parent.valid() ? map_.world_from_camera(keyframe.parent) : Rigid3{};
     odometry_.push_back({world_from_parent.inverse() * map_.world_from_camera(keyframe.id),
@@ -49,59 +49,59 @@ Mapper::Mapper(const SlamOptions& options, const Executor& executor, IndexedMap&
 
 Mapper::~Mapper() = default;
 
-std::optional<KeyframeId> Mapper::begin_part(const ObservedFrame& frame) {
+std::optional<KeyframeId> Mapper::begin_component(const ObservedFrame& frame) {
   if (points_with_depth(frame) < options_.min_matches) return std::nullopt;
   if (!map_.keyframes().empty() && ++good_lost_frames_ < options_.lost_frames) return std::nullopt;
   good_lost_frames_ = 0;
-  (void)take_over();
-  const KeyframeId id = indexed_.add_keyframe(ObservedFrame(frame), {}, {}, parts_++);
+  (void)apply_adjustment();
+  const KeyframeId id = indexed_.add_keyframe(ObservedFrame(frame), {}, {}, components_++);
   odometry_.push_back({{}, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
   return id;
 }
 
-KeyframeId Mapper::insert(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent) {
+KeyframeId Mapper::insert(const ObservedFrame& frame, const FramePose& tracked, KeyframeId parent) {
   const Stopwatch watch;
   require(!adjustment_, "the last adjustment has been taken over");
   const Rigid3 parent_from_new = map_.world_from_camera(parent).inverse() * tracked.world_from_camera;
-  const KeyframeId id = add_keyframe(indexed_, frame, tracked, parent, map_.part_of(parent));
+  const KeyframeId id = add_keyframe(indexed_, frame, tracked, parent, map_.component_of(parent));
   odometry_.push_back({parent_from_new, edge_information(map_, id)});
   (void)add_landmarks_by_depth(map_, id);
-  (void)join_with_neighbours(map_, id, options_);
+  (void)fuse_with_neighbours(map_, id, options_);
   times_.mapping.push_back(watch.seconds());
   return id;
 }
 
 void Mapper::start_adjustment(KeyframeId keyframe) {
   require(!adjustment_, "the last adjustment has been taken over");
-  (void)erase_redundant(indexed_, keyframe, options_.mapping);
+  (void)cull_keyframes(indexed_, keyframe, options_.mapping);
   adjustment_ = std::make_unique<Adjustment>();
   adjustment_->window = window_around(map_, keyframe, options_.mapping);
   Adjustment* running = adjustment_.get();
   adjustment_->task.emplace(executor_.start([running] { running->run(); }));
 }
 
-bool Mapper::take_over_if_due() {
+bool Mapper::apply_adjustment_if_due() {
   if (!adjustment_ || ++adjustment_->frames <= options_.mapping.window_lag) return false;
-  return take_over();
+  return apply_adjustment();
 }
 
-bool Mapper::take_over() {
+bool Mapper::apply_adjustment() {
   if (!adjustment_) return false;
   adjustment_->task->wait();
-  cairn::take_over(adjustment_->window, adjustment_->report, map_);
+  cairn::apply_adjustment(adjustment_->window, adjustment_->report, map_);
   times_.window.push_back(adjustment_->seconds);
   adjustment_.reset();
   return true;
 }
 
-void Mapper::adjust_whole(std::int32_t part) {
+void Mapper::adjust_whole(std::int32_t component) {
   const Stopwatch watch;
   for (int round = 0; round < 2; ++round) {  // the second without the outliers of the first
-    Window whole = whole_part(map_, part);
+    Window whole = whole_component(map_, component);
     BundleOptions options;
     const BundleReport report = adjust_bundle(whole.problem, options, executor_);
-    cairn::take_over(whole, report, map_);
+    cairn::apply_adjustment(whole, report, map_);
     if (round > 0) keep_covariances(whole, report);
   }
   times_.global.push_back(watch.seconds());
@@ -114,24 +114,25 @@ void Mapper::keep_covariances(const Window& whole, const BundleReport& report) {
 }
 
 /// Adjustments hold some keyframes of a window, not always the first: the world is where it was made.
-void Mapper::put_back(std::int32_t part) {
+void Mapper::put_back(std::int32_t component) {
   for (const KeyframeId id : map_.keyframe_ids()) {
-    if (map_[id].part != part) continue;
+    if (map_[id].component != component) continue;
     const Rigid3 made = odometry_[static_cast<std::size_t>(id.value)].parent_from_new;
-    if (!map_[id].parent.valid()) move_part(part, part, made * map_[id].world_from_camera.inverse(), map_);
-    return;  // the first of the part
+    if (!map_[id].parent.valid())
+      move_component(component, component, made * map_[id].world_from_camera.inverse(), map_);
+    return;  // the first of the component
   }
 }
 
 void Mapper::finish() {
-  (void)take_over();
+  (void)apply_adjustment();
   if (!options_.odometry) adjust_all();
-  for (std::int32_t part = 0; part < parts_; ++part) put_back(part);
+  for (std::int32_t component = 0; component < components_; ++component) put_back(component);
 }
 
 void Mapper::adjust_all() {
   covariances_.assign(map_.landmarks().size(), Eigen::Matrix3d::Zero());
-  for (std::int32_t part = 0; part < parts_; ++part) adjust_whole(part);
+  for (std::int32_t component = 0; component < components_; ++component) adjust_whole(component);
 }
 
 void Mapper::fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const {

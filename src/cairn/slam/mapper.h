@@ -8,9 +8,9 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/map/pose_graph.h"
+#include "cairn/slam/frame_pose.h"
 #include "cairn/slam/indexed_map.h"
 #include "cairn/slam/stage_times.h"
-#include "cairn/slam/tracked_frame.h"
 #include "cairn/slam/window.h"
 
 namespace cairn {
@@ -23,19 +23,19 @@ class Mapper {
   Mapper(const SlamOptions& options, const Executor& executor, IndexedMap& indexed, StageTimes& times);
   ~Mapper();
 
-  /// The first keyframe of a part, where the frame has enough depth and none fitted for lost_frames.
-  std::optional<KeyframeId> begin_part(const ObservedFrame& frame);
+  /// The first keyframe of a component, where the frame has enough depth and none fitted for lost_frames.
+  std::optional<KeyframeId> begin_component(const ObservedFrame& frame);
   /// The camera is not lost.
   void found() { good_lost_frames_ = 0; }
   /// Makes a keyframe of a tracked frame, with the landmarks that it shows. No adjustment may be under way.
-  KeyframeId insert(const ObservedFrame& frame, const TrackedFrame& tracked, KeyframeId parent);
+  KeyframeId insert(const ObservedFrame& frame, const FramePose& tracked, KeyframeId parent);
   /// Erases neighbours of the keyframe that have become redundant, and starts the adjustment of the window
   /// around it. No adjustment may be under way.
   void start_adjustment(KeyframeId keyframe);
   /// To be called once for each frame: takes an adjustment over whose time has come. True: the map moved.
-  bool take_over_if_due();
+  bool apply_adjustment_if_due();
   /// Takes the adjustment over that is under way, if any. True: the map moved.
-  bool take_over();
+  bool apply_adjustment();
   /// After the last frame: adjusts the whole map.
   void finish();
 
@@ -49,8 +49,8 @@ class Mapper {
  private:
   struct Adjustment;
   void adjust_all();
-  void adjust_whole(std::int32_t part);
-  void put_back(std::int32_t part);
+  void adjust_whole(std::int32_t component);
+  void put_back(std::int32_t component);
   void keep_covariances(const Window& whole, const BundleReport& report);
 
   const SlamOptions& options_;
@@ -65,7 +65,7 @@ class Mapper {
     Matrix6d information;
   };
   std::vector<Step> odometry_;  // of each keyframe, when it was made
-  std::int32_t parts_ = 0;
+  std::int32_t components_ = 0;
   int good_lost_frames_ = 0;
 };
 

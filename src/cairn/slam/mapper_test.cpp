@@ -16,19 +16,19 @@ struct Mapping {
 
   [[nodiscard]] ObservedFrame see(const Rigid3& truth) { return world.see(truth, frame++).observed; }
 
-  std::optional<KeyframeId> begin(const Rigid3& truth) { return mapper.begin_part(see(truth)); }
+  std::optional<KeyframeId> begin(const Rigid3& truth) { return mapper.begin_component(see(truth)); }
 
   /// A keyframe that was tracked by what keyframe `parent` shows.
   KeyframeId add(const Rigid3& truth, const Rigid3& tracked_at, KeyframeId parent) {
     const ObservedFrame observed = see(truth);
-    TrackedFrame tracked;
+    FramePose tracked;
     tracked.world_from_camera = tracked_at;
     const PosedFrame view{map.rig(), observed, tracked_at.inverse()};
     std::vector<LandmarkId> shown;
     for (const LandmarkId id : map[parent].landmarks)
       if (id.valid()) shown.push_back(id);
     tracked.landmarks.resize(observed.observations.size());
-    for (const FoundPoint& found : find_landmarks(map, shown, view, 10))
+    for (const Correspondence& found : find_landmarks(map, shown, view, 10))
       tracked.landmarks[static_cast<std::size_t>(found.feature)] = found.landmark;
     const KeyframeId id = mapper.insert(observed, tracked, parent);
     mapper.start_adjustment(id);
@@ -49,7 +49,7 @@ struct Mapping {
 
 TEST(Mapper, the_first_frame_with_depth_begins_the_map) {
   Mapping mapping;
-  EXPECT_FALSE(mapping.mapper.begin_part(testkit::blank_frame(500)));
+  EXPECT_FALSE(mapping.mapper.begin_component(testkit::blank_frame(500)));
   const auto first = mapping.begin(testkit::aside(3));
   ASSERT_TRUE(first);
   EXPECT_EQ(mapping.map[*first].world_from_camera.translation.norm(), 0) << "the world is its camera";
@@ -57,7 +57,7 @@ TEST(Mapper, the_first_frame_with_depth_begins_the_map) {
   EXPECT_TRUE(mapping.places.contains(first->value));
 }
 
-TEST(Mapper, another_part_begins_after_lost_frames_only) {
+TEST(Mapper, another_component_begins_after_lost_frames_only) {
   Mapping mapping;
   mapping.options.lost_frames = 3;
   (void)mapping.begin({});
@@ -65,7 +65,7 @@ TEST(Mapper, another_part_begins_after_lost_frames_only) {
   EXPECT_FALSE(mapping.begin({}));
   const auto second = mapping.begin({});
   ASSERT_TRUE(second);
-  EXPECT_EQ(mapping.map.part_of(*second), 1);
+  EXPECT_EQ(mapping.map.component_of(*second), 1);
   EXPECT_FALSE(mapping.map[*second].parent.valid());
   EXPECT_FALSE(mapping.begin({})) << "counted anew";
 }
@@ -85,10 +85,10 @@ TEST(Mapper, the_world_stays_where_the_first_keyframe_was) {
   const KeyframeId first = *mapping.begin({});
   KeyframeId last = first;
   for (int k = 1; k < 4; ++k) {
-    (void)mapping.mapper.take_over();
+    (void)mapping.mapper.apply_adjustment();
     last = mapping.add(testkit::aside(0.1 * k), testkit::aside(0.11 * k), last);
   }
-  (void)mapping.mapper.take_over();
+  (void)mapping.mapper.apply_adjustment();
   mapping.map.move(first, testkit::aside(0.02));  // as a window may that holds others
   mapping.mapper.finish();
   EXPECT_LT(motion_norm(mapping.map[first].world_from_camera), 1e-9);
@@ -101,7 +101,7 @@ TEST(Mapper, a_keyframe_shares_landmarks_and_brings_its_own) {
   int shared = 0, own = 0;
   for (const LandmarkId id : mapping.map[second].landmarks) {
     ASSERT_TRUE(id.valid());
-    (mapping.map[id].sightings.size() > 1 ? shared : own) += 1;
+    (mapping.map[id].observations.size() > 1 ? shared : own) += 1;
   }
   EXPECT_GT(shared, 100);
   EXPECT_GT(own, 20);
@@ -113,16 +113,16 @@ TEST(Mapper, an_adjustment_is_taken_over_after_its_lag) {
   for (const int threads : {1, 3}) {
     Mapping mapping(threads);
     const auto first = mapping.begin({});
-    EXPECT_FALSE(mapping.mapper.take_over_if_due()) << "none under way";
+    EXPECT_FALSE(mapping.mapper.apply_adjustment_if_due()) << "none under way";
     const Rigid3 truth = testkit::aside(0.3), wrong{rotation_exp({0, 0.001, 0}), {0.304, 0, 0}};
     const KeyframeId second = mapping.add(truth, wrong, *first);
     for (int i = 0; i < mapping.options.mapping.window_lag; ++i) {
-      EXPECT_FALSE(mapping.mapper.take_over_if_due());
+      EXPECT_FALSE(mapping.mapper.apply_adjustment_if_due());
       EXPECT_EQ(mapping.map[second].world_from_camera.translation, wrong.translation);
     }
-    EXPECT_TRUE(mapping.mapper.take_over_if_due());
+    EXPECT_TRUE(mapping.mapper.apply_adjustment_if_due());
     EXPECT_LT(testkit::distance(mapping.map[second].world_from_camera, truth), 1.5e-3);
-    EXPECT_FALSE(mapping.mapper.take_over()) << "once";
+    EXPECT_FALSE(mapping.mapper.apply_adjustment()) << "once";
     EXPECT_EQ(mapping.times.window.size(), 1U);
   }
 }
@@ -131,7 +131,7 @@ TEST(Mapper, redundant_keyframes_leave_the_places_too) {
   Mapping mapping;
   KeyframeId last = *mapping.begin({});
   for (int k = 1; k < 8; ++k) {
-    (void)mapping.mapper.take_over();
+    (void)mapping.mapper.apply_adjustment();
     last = mapping.add(testkit::aside(0.01 * k), last);
   }
   const auto kept = mapping.map.keyframe_ids();

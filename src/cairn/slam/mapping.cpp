@@ -8,16 +8,16 @@
 namespace cairn {
 namespace {
 
-/// The landmark that has more sightings stays; of equal ones the older.
+/// The landmark that has more observations stays; of equal ones the older.
 void merge_two(Map& map, LandmarkId a, LandmarkId b) {
-  const std::size_t in_a = map[a].sightings.size(), in_b = map[b].sightings.size();
+  const std::size_t in_a = map[a].observations.size(), in_b = map[b].observations.size();
   const bool keep_a = in_a != in_b ? in_a > in_b : a < b;
   keep_a ? map.merge(b, a) : map.merge(a, b);
 }
 
 bool shows(const Landmark& landmark, KeyframeId keyframe) {
-  return std::any_of(landmark.sightings.begin(), landmark.sightings.end(),
-                     [&](const Sighting& s) { return s.keyframe == keyframe; });
+  return std::any_of(landmark.observations.begin(), landmark.observations.end(),
+                     [&](const ObservationRef& s) { return s.keyframe == keyframe; });
 }
 
 /// Looks for landmarks in a keyframe that does not show them.
@@ -28,7 +28,7 @@ int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyfra
     if (id.valid() && !map[id].erased() && !shows(map[id], keyframe)) wanted.push_back(id);
   const PosedFrame view{map.rig(), map[keyframe].observed, map[keyframe].world_from_camera.inverse()};
   int joined = 0;
-  for (const FoundPoint& found : find_landmarks(map, wanted, view, options.tracking.map_radius_px)) {
+  for (const Correspondence& found : find_landmarks(map, wanted, view, options.tracking.map_radius_px)) {
     const auto feature = static_cast<std::size_t>(found.feature);
     const Eigen::Vector3d point = view.camera_from_world * found.point_in_world;
     const Observation& seen = view.observed.observations[feature];
@@ -37,7 +37,7 @@ int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyfra
     const LandmarkId other = map[keyframe].landmarks[feature];
     if (other == found.landmark) continue;
     other.valid() ? merge_two(map, found.landmark, other)
-                  : map.add_sighting(found.landmark, {keyframe, found.feature});
+                  : map.add_observation(found.landmark, {keyframe, found.feature});
     ++joined;
   }
   return joined;
@@ -48,10 +48,11 @@ bool is_seen_as_well(const Map& map, const Landmark& landmark, KeyframeId keyfra
   constexpr float kNextLevel = 1.25F;
   constexpr int kOthers = 3;
   int others = 0;
-  for (const Sighting& sighting : landmark.sightings) {
-    if (sighting.keyframe == keyframe) continue;
-    const auto& keypoints = map[sighting.keyframe].observed.features.keypoints;
-    others += keypoints[static_cast<std::size_t>(sighting.feature)].sigma_px <= kNextLevel * sigma_px ? 1 : 0;
+  for (const ObservationRef& observation : landmark.observations) {
+    if (observation.keyframe == keyframe) continue;
+    const auto& keypoints = map[observation.keyframe].observed.features.keypoints;
+    others +=
+        keypoints[static_cast<std::size_t>(observation.feature)].sigma_px <= kNextLevel * sigma_px ? 1 : 0;
   }
   return others >= kOthers;
 }
@@ -60,7 +61,7 @@ bool is_redundant(const Map& map, KeyframeId id, double share) {
   const Keyframe& keyframe = map[id];
   int shown = 0, seen_as_well = 0;
   for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-    if (!keyframe.landmarks[i].valid() || map[keyframe.landmarks[i]].sightings.size() < 2) continue;
+    if (!keyframe.landmarks[i].valid() || map[keyframe.landmarks[i]].observations.size() < 2) continue;
     ++shown;
     const float sigma = keyframe.observed.features.keypoints[i].sigma_px;
     seen_as_well += is_seen_as_well(map, map[keyframe.landmarks[i]], id, sigma) ? 1 : 0;
@@ -70,15 +71,15 @@ bool is_redundant(const Map& map, KeyframeId id, double share) {
 
 }  // namespace
 
-KeyframeId add_keyframe(IndexedMap& indexed, const ObservedFrame& observed, const TrackedFrame& tracked,
-                        KeyframeId parent, std::int32_t part) {
+KeyframeId add_keyframe(IndexedMap& indexed, const ObservedFrame& observed, const FramePose& tracked,
+                        KeyframeId parent, std::int32_t component) {
   const KeyframeId id =
-      indexed.add_keyframe(ObservedFrame(observed), tracked.world_from_camera, parent, part);
+      indexed.add_keyframe(ObservedFrame(observed), tracked.world_from_camera, parent, component);
   Map& map = indexed.edit();
   for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
     const LandmarkId landmark = tracked.landmarks[i];
     if (!landmark.valid() || map[landmark].erased() || shows(map[landmark], id)) continue;
-    map.add_sighting(landmark, {id, static_cast<std::int32_t>(i)});
+    map.add_observation(landmark, {id, static_cast<std::int32_t>(i)});
   }
   return id;
 }
@@ -94,7 +95,7 @@ int add_landmarks_by_depth(Map& map, KeyframeId id) {
   return added;
 }
 
-int join_with_neighbours(Map& map, KeyframeId id, const SlamOptions& options) {
+int fuse_with_neighbours(Map& map, KeyframeId id, const SlamOptions& options) {
   const auto neighbours = neighbours_of(map, id, static_cast<std::size_t>(options.tracking.local_keyframes));
   int joined = 0;
   for (const KeyframeId neighbour : neighbours)
@@ -102,7 +103,7 @@ int join_with_neighbours(Map& map, KeyframeId id, const SlamOptions& options) {
   return joined + join_into(map, landmarks_of(map, neighbours, options.mapping.trial_keyframes), id, options);
 }
 
-int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options) {
+int fuse_neighbourhoods(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& options) {
   const auto count = static_cast<std::size_t>(options.tracking.local_keyframes);
   std::vector<KeyframeId> around_a = neighbours_of(map, a, count), around_b = neighbours_of(map, b, count);
   around_a.push_back(a);
@@ -115,18 +116,18 @@ int join_regions(Map& map, KeyframeId a, KeyframeId b, const SlamOptions& option
   return joined;
 }
 
-int erase_unconfirmed(Map& map) {
+int cull_landmarks(Map& map) {
   int erased = 0;
   for (const LandmarkId id : map.landmark_ids()) {
-    if (map[id].sightings.size() > 1) continue;
+    if (map[id].observations.size() > 1) continue;
     map.erase(id);
     ++erased;
   }
   return erased;
 }
 
-std::vector<KeyframeId> erase_redundant(IndexedMap& indexed, KeyframeId keyframe,
-                                        const MappingOptions& options) {
+std::vector<KeyframeId> cull_keyframes(IndexedMap& indexed, KeyframeId keyframe,
+                                       const MappingOptions& options) {
   const Map& map = indexed.map();
   std::vector<KeyframeId> erased;
   for (const KeyframeId id : neighbours_of(map, keyframe)) {

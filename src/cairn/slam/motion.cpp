@@ -4,9 +4,9 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "cairn/features/matching.h"
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
+#include "cairn/features/matching.h"
 
 namespace cairn {
 namespace {
@@ -20,7 +20,7 @@ struct Pairs {
   std::vector<Observation> seen_in_current;
 };
 
-Pairs pairs_of(const ReferenceView& reference, const ObservedFrame& current,
+Pairs pairs_of(const ReferencePoints& reference, const ObservedFrame& current,
                const std::vector<Match>& matches) {
   Pairs pairs;
   for (const Match& match : matches) {
@@ -66,7 +66,7 @@ std::vector<Eigen::Vector3d> points_of(const Map& map, KeyframeId id) {
   return points;
 }
 
-Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const ObservedFrame& current,
+Motion estimate_motion(const Rig& rig, const ReferencePoints& reference, const ObservedFrame& current,
                        const SlamOptions& options) {
   const auto all = match_mutual(current.features.descriptors, reference.observed.features.descriptors);
   const auto good = filter_by_distance(all, options.max_distance_factor, kDistanceFloor);
@@ -92,25 +92,25 @@ Motion estimate_motion(const Rig& rig, const ReferenceView& reference, const Obs
   return motion;
 }
 
-const char* to_string(KeyframeDecision decision) {
-  switch (decision) {
-    case KeyframeDecision::too_far:
+const char* to_string(TrackingStatus status) {
+  switch (status) {
+    case TrackingStatus::implausible:
       return "too far";
-    case KeyframeDecision::too_close:
+    case TrackingStatus::tracked:
       return "too close";
-    case KeyframeDecision::keyframe:
+    case TrackingStatus::keyframe:
       return "keyframe";
-    case KeyframeDecision::not_matched:
+    case TrackingStatus::lost:
       break;
   }
   return "not matched";
 }
 
-KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps) {
-  if (!motion.found) return KeyframeDecision::not_matched;
-  if (motion.norm >= steps * options.max_motion) return KeyframeDecision::too_far;
-  if (motion.norm <= options.keyframe_threshold) return KeyframeDecision::too_close;
-  return KeyframeDecision::keyframe;
+TrackingStatus tracking_status(const Motion& motion, const SlamOptions& options, double steps) {
+  if (!motion.found) return TrackingStatus::lost;
+  if (motion.norm >= steps * options.max_motion) return TrackingStatus::implausible;
+  if (motion.norm <= options.keyframe_threshold) return TrackingStatus::tracked;
+  return TrackingStatus::keyframe;
 }
 
 bool is_plausible_loop(const Motion& motion, const SlamOptions& options) {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "cairn/features/matching.h"
 #include "cairn/map/map.h"
+#include "cairn/features/matching.h"
 #include "cairn/slam/options.h"
 
 namespace cairn {
@@ -23,7 +23,7 @@ struct Motion {
 };
 
 /// What a motion is measured against: a frame, and a point for each of its features, NaN where none is known.
-struct ReferenceView {
+struct ReferencePoints {
   const ObservedFrame& observed;
   std::span<const Eigen::Vector3d> points_in_camera;
 };
@@ -33,21 +33,23 @@ struct ReferenceView {
 
 /// Matches descriptors, solves P3P in RANSAC and refines on all inliers: points of `reference`, observations
 /// of `current`. Deterministic from (seed, the two frames).
-[[nodiscard]] Motion estimate_motion(const Rig& rig, const ReferenceView& reference,
+[[nodiscard]] Motion estimate_motion(const Rig& rig, const ReferencePoints& reference,
                                      const ObservedFrame& current, const SlamOptions& options);
 
-/// What a frame's motion against a keyframe means.
-enum class KeyframeDecision {
-  not_matched,  ///< no motion found
-  too_far,      ///< max_motion or more: probably wrong, and refused
-  too_close,    ///< tracked, but not worth a keyframe
+/// Says what became of a frame.
+enum class TrackingStatus {
+  lost,         ///< no motion found
+  implausible,  ///< a motion of max_motion or more: probably wrong, and refused
+  tracked,      ///< and not worth a keyframe
   keyframe,     ///< tracked, and a keyframe
 };
 
-[[nodiscard]] const char* to_string(KeyframeDecision decision);
+[[nodiscard]] const char* to_string(TrackingStatus status);
 
-/// The four outcomes between frames `steps` frame periods apart (see steps_between), by motion.norm.
-[[nodiscard]] KeyframeDecision decide(const Motion& motion, const SlamOptions& options, double steps = 1);
+/// Returns the status of a motion between frames `steps` frame periods apart (see steps_between), by
+/// motion.norm.
+[[nodiscard]] TrackingStatus tracking_status(const Motion& motion, const SlamOptions& options,
+                                             double steps = 1);
 /// Tells whether a motion may be believed between frames that need not be neighbours, as those of a loop or a
 /// frame after being lost: loop_min_inliers and loop_min_inlier_share are reached, and the motion is below
 /// max_loop_motion.

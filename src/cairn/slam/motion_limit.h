@@ -18,14 +18,14 @@ namespace cairn {
 [[nodiscard]] bool is_plausible_motion(const Rigid3& motion, std::int64_t from_ns, std::int64_t to_ns,
                                        const SlamOptions& options);
 
-/// The last pose of the camera that is known in each part of the map, against which a new one is judged.
+/// The last pose of the camera that is known in each component of the map, against which a new one is judged.
 class KnownPoses {
  public:
-  /// A frame's pose relative to a keyframe; it moves with that and goes with its part.
+  /// A frame's pose relative to a keyframe; it moves with that and goes with its component.
   void remember(const Map& map, KeyframeId reference, const Rigid3& reference_from_frame,
                 std::int64_t stamp_ns);
-  /// Whether the camera may be there at that time, in the part of `reference`; true where none of its poses
-  /// is known, as in the map of an earlier run.
+  /// Whether the camera may be there at that time, in the component of `reference`; true where none of its
+  /// poses is known, as in the map of an earlier run.
   [[nodiscard]] bool allow(const Map& map, KeyframeId reference, const Rigid3& world_from_camera,
                            std::int64_t stamp_ns, const SlamOptions& options) const;
 
@@ -38,9 +38,9 @@ class KnownPoses {
   std::vector<Known> poses_;  // the latest last
 };
 
-/// Whether the keyframes of this recording in two parts, put together by `a_from_b`, make a plausible motion:
-/// each from the last one of the other part before it.
-[[nodiscard]] bool can_be_joined(const Map& map, std::int32_t part_a, std::int32_t part_b,
+/// Whether the keyframes of this recording in two components, put together by `a_from_b`, make a plausible
+/// motion: each from the last one of the other component before it.
+[[nodiscard]] bool can_be_joined(const Map& map, std::int32_t component_a, std::int32_t component_b,
                                  const Rigid3& a_from_b, const SlamOptions& options);
 
 }  // namespace cairn

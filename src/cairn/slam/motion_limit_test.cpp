@@ -31,7 +31,7 @@ TEST(MotionLimit, is_for_each_frame_period) {
   EXPECT_FALSE(is_plausible_motion(turned, 0, kSecond / 10, options)) << "rotation and translation add up";
 }
 
-TEST(KnownPoses, judge_by_the_last_pose_in_the_same_part) {
+TEST(KnownPoses, judge_by_the_last_pose_in_the_same_component) {
   Map map(testkit::kWorldRig, "ORB");
   const KeyframeId a = map.add_keyframe(testkit::blank_frame(4), {}, {}, 0);
   const KeyframeId b = map.add_keyframe(testkit::blank_frame(4, 1), testkit::aside(100), {}, 1);
@@ -61,15 +61,15 @@ TEST(KnownPoses, move_with_their_keyframe) {
 
 class JoinTest : public testing::Test {
  protected:
-  KeyframeId add(std::int32_t frame, double x, std::int32_t part) {
+  KeyframeId add(std::int32_t frame, double x, std::int32_t component) {
     ObservedFrame observed = testkit::blank_frame(4, frame);
     observed.stamp_ns = frame * kSecond / 10;
-    return map_.add_keyframe(std::move(observed), testkit::aside(x), {}, part);
+    return map_.add_keyframe(std::move(observed), testkit::aside(x), {}, component);
   }
   Map map_{testkit::kWorldRig, "ORB"};
 };
 
-TEST_F(JoinTest, parts_need_a_plausible_way_from_one_to_the_other) {
+TEST_F(JoinTest, components_need_a_plausible_way_from_one_to_the_other) {
   add(0, 0, 0);
   add(1, 0.3, 0);
   add(5, 0, 1);  // 4 periods later

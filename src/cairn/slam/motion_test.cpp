@@ -18,7 +18,7 @@ constexpr Rig kRig{525, 525, 319.5, 239.5, 0.075};
 struct Views {
   ObservedFrame reference, current;
   Rigid3 current_from_reference;
-  [[nodiscard]] ReferenceView reference_view() const { return {reference, reference.points_in_camera}; }
+  [[nodiscard]] ReferencePoints reference_view() const { return {reference, reference.points_in_camera}; }
 };
 
 void add_feature(ObservedFrame& frame, std::size_t i, const Eigen::Vector3d& point, Random& random) {
@@ -110,14 +110,14 @@ Motion motion_of(double norm, int matches, int inliers) {
   return motion;
 }
 
-TEST(KeyframeDecision, has_four_outcomes) {
+TEST(TrackingStatus, has_four_outcomes) {
   SlamOptions options;
   options.keyframe_threshold = 0.1;
   options.max_motion = 0.3;
-  EXPECT_EQ(decide(Motion{}, options), KeyframeDecision::not_matched);
-  EXPECT_EQ(decide(motion_of(0.1, 100, 90), options), KeyframeDecision::too_close);
-  EXPECT_EQ(decide(motion_of(0.11, 100, 90), options), KeyframeDecision::keyframe);
-  EXPECT_EQ(decide(motion_of(0.3, 100, 90), options), KeyframeDecision::too_far);
+  EXPECT_EQ(tracking_status(Motion{}, options), TrackingStatus::lost);
+  EXPECT_EQ(tracking_status(motion_of(0.1, 100, 90), options), TrackingStatus::tracked);
+  EXPECT_EQ(tracking_status(motion_of(0.11, 100, 90), options), TrackingStatus::keyframe);
+  EXPECT_EQ(tracking_status(motion_of(0.3, 100, 90), options), TrackingStatus::implausible);
 }
 
 TEST(PlausibleLoop, needs_more_evidence_and_may_be_farther) {

@@ -60,7 +60,7 @@ struct SlamOptions {
   int nearby_loops = 0;               ///< so are the last so many keyframes
   int random_loops = 0;               ///< and so many of all others
   int relocalization_keyframes = 20;  ///< recent keyframes tried when lost
-  int lost_frames = 8;    ///< good images that fit nowhere: after so many a second part of the map begins
+  int lost_frames = 8;  ///< good images that fit nowhere: after so many a second component of the map begins
   bool odometry = false;  ///< no loops, and no adjustment of the whole at the end
   std::uint64_t seed = 1;
 

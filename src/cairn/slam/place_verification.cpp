@@ -3,13 +3,13 @@
 
 namespace cairn {
 
-std::optional<TrackedFrame> verify_place(const Map& map, KeyframeId keyframe, const ObservedFrame& observed,
-                                         const SlamOptions& options) {
+std::optional<FramePose> verify_place(const Map& map, KeyframeId keyframe, const ObservedFrame& observed,
+                                      const SlamOptions& options) {
   const Keyframe& reference = map[keyframe];
   const auto points = points_of(map, keyframe);
   const Motion motion = estimate_motion(map.rig(), {reference.observed, points}, observed, options);
   if (!is_plausible_loop(motion, options)) return std::nullopt;
-  TrackedFrame placed;
+  FramePose placed;
   placed.world_from_camera = reference.world_from_camera * motion.current_from_reference.inverse();
   placed.landmarks.resize(observed.observations.size());
   for (const Match& pair : motion.pairs)

@@ -3,15 +3,15 @@
 
 #include <optional>
 
-#include "cairn/slam/tracked_frame.h"
+#include "cairn/slam/frame_pose.h"
 
 namespace cairn {
 
 /// Verifies by geometry that a frame shows what the keyframe shows: estimate_motion between the two must be a
 /// plausible loop (is_plausible_loop). Returns the frame as the keyframe places it, with the landmarks that
 /// the inliers show there, or nullopt.
-[[nodiscard]] std::optional<TrackedFrame> verify_place(const Map& map, KeyframeId keyframe,
-                                                       const ObservedFrame& observed,
-                                                       const SlamOptions& options);
+[[nodiscard]] std::optional<FramePose> verify_place(const Map& map, KeyframeId keyframe,
+                                                    const ObservedFrame& observed,
+                                                    const SlamOptions& options);
 
 }  // namespace cairn

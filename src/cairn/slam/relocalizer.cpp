@@ -45,7 +45,7 @@ std::optional<Relocalization> relocalize(const IndexedMap& indexed, const Observ
   for (const PlaceCandidate& place :
        indexed.places().query(observed.features.descriptors, static_cast<std::size_t>(options.place_loops)))
     add_candidate({place.id}, candidates);
-  using Placed = std::optional<TrackedFrame>;
+  using Placed = std::optional<FramePose>;
   const auto attempts = executor.map<Placed>(
       candidates.size(), [&](std::size_t i) { return verify_place(map, candidates[i], observed, options); });
   const auto best = std::max_element(attempts.begin(), attempts.end(), [](const Placed& a, const Placed& b) {

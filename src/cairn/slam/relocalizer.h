@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "cairn/core/executor.h"
+#include "cairn/slam/frame_pose.h"
 #include "cairn/slam/indexed_map.h"
-#include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
 
 /// A frame found in the map without a prediction.
 struct Relocalization {
   KeyframeId keyframe;  ///< that it was matched with
-  TrackedFrame tracked;
+  FramePose tracked;
 };
 
 /// Tries the keyframes that look most like the frame, the last relocalization_keyframes and random_loops

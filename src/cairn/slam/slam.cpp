@@ -56,11 +56,11 @@ class SlamPipeline {
         closer_(options, executor, indexed_) {}
 
   void process(ObservedFrame&& frame) {
-    if (mapper_.take_over_if_due()) tracker_.follow_map();
-    FrameTrack track = this->track(std::move(frame));
+    if (mapper_.apply_adjustment_if_due()) tracker_.follow_map();
+    TrackingResult track = this->track(std::move(frame));
     if (tracker_.lost()) {
-      begin_part(track);
-    } else if (track.decision == KeyframeDecision::keyframe) {
+      begin_component(track);
+    } else if (track.status == TrackingStatus::keyframe) {
       const KeyframeId keyframe = insert_keyframe();
       close_loops(keyframe);
       refer_to(keyframe, track);
@@ -72,7 +72,7 @@ class SlamPipeline {
   void finish() {
     mapper_.finish();
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
-    (void)erase_unconfirmed(indexed_.edit());
+    (void)cull_landmarks(indexed_.edit());
     result_.covariances = mapper_.covariances();
     result_.loops = closer_.report();
     mapper_.fill_graphs(closer_.edges(), result_.graph_before, result_.graph_after);
@@ -80,9 +80,9 @@ class SlamPipeline {
   }
 
  private:
-  FrameTrack track(ObservedFrame&& frame) {
+  TrackingResult track(ObservedFrame&& frame) {
     const Stopwatch watch;
-    const FrameTrack track = tracker_.track(std::move(frame));
+    const TrackingResult track = tracker_.track(std::move(frame));
     result_.times.tracking.push_back(watch.seconds());
     if (tracker_.lost()) return track;
     mapper_.found();
@@ -91,15 +91,15 @@ class SlamPipeline {
     return track;
   }
 
-  void begin_part(FrameTrack& track) {
-    const auto keyframe = mapper_.begin_part(tracker_.last_observed());
+  void begin_component(TrackingResult& track) {
+    const auto keyframe = mapper_.begin_component(tracker_.last_observed());
     if (!keyframe) return;
-    track.decision = KeyframeDecision::keyframe;
+    track.status = TrackingStatus::keyframe;
     refer_to(*keyframe, track);
   }
 
   KeyframeId insert_keyframe() {
-    if (mapper_.take_over()) tracker_.follow_map();
+    if (mapper_.apply_adjustment()) tracker_.follow_map();
     return mapper_.insert(tracker_.last_observed(), tracker_.last(), tracker_.reference());
   }
 
@@ -110,7 +110,7 @@ class SlamPipeline {
   }
 
   /// The frame that was tracked last is this keyframe.
-  void refer_to(KeyframeId keyframe, FrameTrack& track) {
+  void refer_to(KeyframeId keyframe, TrackingResult& track) {
     tracker_.refer_to(keyframe);
     track.reference = keyframe;
     track.reference_from_frame = {};
@@ -141,9 +141,10 @@ SlamOptions with_frame_period(const SlamOptions& given, const Sequence& sequence
 
 /// Frames that would have been tracked, were it not for max_motion.
 void warn_of_refused(const SlamResult& result, const SlamOptions& options, Progress& progress) {
-  const auto refused = std::count_if(result.frames.begin(), result.frames.end(), [](const FrameTrack& track) {
-    return !track.tracked() && track.decision == KeyframeDecision::too_far;
-  });
+  const auto refused =
+      std::count_if(result.frames.begin(), result.frames.end(), [](const TrackingResult& track) {
+        return !track.tracked() && track.status == TrackingStatus::implausible;
+      });
   if (refused == 0) return;
   progress.warn(
       fmt::format("{} of {} frames moved further than max_motion = {:g} (rad + m) allows between neighbours "
@@ -163,10 +164,10 @@ MapHeader map_header(const Sequence& sequence, const SlamOptions& options) {
 
 }  // namespace
 
-std::int32_t SlamResult::main_part() const {
+std::int32_t SlamResult::main_component() const {
   std::map<std::int32_t, std::size_t> counts;
-  for (const FrameTrack& track : frames)
-    if (track.tracked()) ++counts[map.part_of(*track.reference)];
+  for (const TrackingResult& track : frames)
+    if (track.tracked()) ++counts[map.component_of(*track.reference)];
   const auto most = std::max_element(counts.begin(), counts.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   return most == counts.end() ? 0 : most->first;
@@ -174,9 +175,9 @@ std::int32_t SlamResult::main_part() const {
 
 Trajectory SlamResult::trajectory() const {
   Trajectory trajectory;
-  const std::int32_t part = main_part();
-  for (const FrameTrack& track : frames) {
-    if (!track.tracked() || map.part_of(*track.reference) != part) continue;
+  const std::int32_t component = main_component();
+  for (const TrackingResult& track : frames) {
+    if (!track.tracked() || map.component_of(*track.reference) != component) continue;
     trajectory.push_back({track.stamp_ns, WorldFromCamera(map.world_from_camera(*track.reference) *
                                                           track.reference_from_frame)});
   }
@@ -185,10 +186,10 @@ Trajectory SlamResult::trajectory() const {
 
 Trajectory SlamResult::keyframe_trajectory() const {
   Trajectory trajectory;
-  const std::int32_t part = main_part();
+  const std::int32_t component = main_component();
   for (const Keyframe& keyframe : map.keyframes()) {
     const bool is_of_sequence = keyframe.observed.frame.valid();  // and not of the start map
-    if (!keyframe.erased && keyframe.part == part && is_of_sequence)
+    if (!keyframe.erased && keyframe.component == component && is_of_sequence)
       trajectory.push_back({keyframe.observed.stamp_ns, WorldFromCamera(keyframe.world_from_camera)});
   }
   return trajectory;
@@ -209,13 +210,13 @@ SlamResult run_slam(const Sequence& sequence, const SlamOptions& given, const Ex
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
   SlamPipeline pipeline(options, executor, result);
   FrameStream stream{"tracking"};
-  stream.process = [&](std::size_t, Arrival&& arrival) {
-    result.times.decode.push_back(arrival.decode_seconds);
-    result.times.features.push_back(arrival.feature_seconds);
-    if (!arrival.failure) pipeline.process(std::move(arrival.observed));
+  stream.process = [&](std::size_t, LoadedFrame&& loaded) {
+    result.times.decode.push_back(loaded.decode_seconds);
+    result.times.features.push_back(loaded.feature_seconds);
+    if (!loaded.failure) pipeline.process(std::move(loaded.observed));
   };
   const FrameStreamReport report =
-      observe_frames(sequence, Frontend(sequence, options.observer), stream, executor, progress);
+      observe_frames(sequence, FrameObserver(sequence, options.observer), stream, executor, progress);
   result.stopped = report.stopped;
   result.unreadable = report.unreadable;
   pipeline.finish();

@@ -19,7 +19,7 @@
 namespace cairn {
 
 struct SlamResult {
-  std::vector<FrameTrack> frames;            ///< one for each frame that was decoded, in order
+  std::vector<TrackingResult> frames;        ///< one for each frame that was decoded, in order
   std::vector<std::string> unreadable;       ///< messages of frames that were skipped
   Map map;                                   ///< after the last adjustment
   std::vector<Eigen::Matrix3d> covariances;  ///< of its landmarks' points, see Mapper::covariances
@@ -30,9 +30,9 @@ struct SlamResult {
   std::size_t start_keyframes = 0;  ///< of the map that the run went on from; 0: it began with none
   bool stopped = false;             ///< the user stopped before the last frame
 
-  /// The part of the map with the most frames: the one that trajectories and outputs are of.
-  [[nodiscard]] std::int32_t main_part() const;
-  /// world_from_camera of every frame that was tracked in the main part, carried by its keyframe's pose.
+  /// The component of the map with the most frames: the one that trajectories and outputs are of.
+  [[nodiscard]] std::int32_t main_component() const;
+  /// world_from_camera of every frame that was tracked in the main component, carried by its keyframe's pose.
   [[nodiscard]] Trajectory trajectory() const;
   [[nodiscard]] Trajectory keyframe_trajectory() const;
 };

@@ -73,7 +73,7 @@ TEST_F(SlowSlamRecovery, is_tracked_again_within_ten_frames_each_time) {
     for (std::size_t i = again + kAgainWithin; i < again + 2 * kAgainWithin; ++i)
       EXPECT_TRUE(result.frames[i].tracked()) << "frame " << i;
   }
-  EXPECT_EQ(result.main_part(), 0);
+  EXPECT_EQ(result.main_component(), 0);
   EXPECT_LT(error_m(sequence, result), 0.015);
   EXPECT_GT(result.trajectory().size(), sequence.frames.size() - 2 * kBad - 3 * kAgainWithin);
 }

@@ -121,7 +121,7 @@ TEST_F(SlamTest, frames_that_move_by_max_motion_or_more_are_refused) {
   options.keyframe_threshold = 0.001;
   const SlamResult result = run_slam(open_sequence(folder_->path()), options, Executor(2), listener);
   EXPECT_LE(result.trajectory().size(), 1U);
-  EXPECT_EQ(result.frames[1].decision, KeyframeDecision::too_far);
+  EXPECT_EQ(result.frames[1].status, TrackingStatus::implausible);
   EXPECT_NE(listener.heard.find("max_motion = 0.004"), std::string::npos) << listener.heard;
 }
 

@@ -10,7 +10,7 @@ namespace cairn {
 struct StageTimes {
   std::vector<double> decode, features;  ///< per frame
   std::vector<double> tracking;          ///< per frame
-  std::vector<double> mapping;           ///< per keyframe: landmarks and sightings
+  std::vector<double> mapping;           ///< per keyframe: landmarks and observations
   std::vector<double> window;            ///< per keyframe: bundle adjustment
   std::vector<double> loops;             ///< per keyframe
   std::vector<double> global;            ///< at the end: bundle adjustment of the whole

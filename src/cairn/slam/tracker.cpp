@@ -14,7 +14,7 @@ constexpr double kWeakShare = 0.25;  // of the motion that else makes a keyframe
 
 /// The points that a frame's features show: of landmarks, or by depth, in the world.
 std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& observed,
-                                          const TrackedFrame& tracked) {
+                                          const FramePose& tracked) {
   std::vector<Eigen::Vector3d> points(observed.observations.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const LandmarkId id = tracked.landmarks[i];
@@ -30,7 +30,7 @@ Tracker::Tracker(const SlamOptions& options, const Executor& executor, const Ind
     : options_(options), executor_(executor), indexed_(indexed), map_(indexed.map()) {}
 
 /// What the last frame shows, landmarks and other points, in this frame.
-std::vector<FoundPoint> Tracker::find_shown_before(const PosedFrame& frame, double radius_px) const {
+std::vector<Correspondence> Tracker::find_shown_before(const PosedFrame& frame, double radius_px) const {
   GuidedSearch search(frame, radius_px);
   const auto points = points_shown(map_, observed_, last_);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -39,7 +39,7 @@ std::vector<FoundPoint> Tracker::find_shown_before(const PosedFrame& frame, doub
                {&observed_.features.descriptors, i, observed_.features.keypoints[i],
                 last_.world_from_camera.translation});
   }
-  std::vector<FoundPoint> found;
+  std::vector<Correspondence> found;
   for (const GuidedMatch& match : search.match()) {
     const LandmarkId id = last_.landmarks[match.point];
     const bool alive = id.valid() && !map_[id].erased();
@@ -48,12 +48,12 @@ std::vector<FoundPoint> Tracker::find_shown_before(const PosedFrame& frame, doub
   return found;
 }
 
-std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) const {
+std::optional<FramePose> Tracker::follow_motion(const ObservedFrame& frame) const {
   const Rigid3 predicted = current_from_last_ * last_.world_from_camera.inverse();
   const PosedFrame view{map_.rig(), frame, predicted};
   for (const double widening : {1.0, 3.0}) {
     const auto found = find_shown_before(view, widening * options_.tracking.motion_radius_px);
-    TrackedFrame current;
+    FramePose current;
     const bool enough = static_cast<int>(found.size()) >= options_.min_matches;
     if (enough && solve_pose(view, found, options_.min_inliers, current) &&
         2 * current.inliers >= current.matches)
@@ -62,17 +62,18 @@ std::optional<TrackedFrame> Tracker::follow_motion(const ObservedFrame& frame) c
   return std::nullopt;
 }
 
-std::optional<TrackedFrame> Tracker::match_last(const ObservedFrame& frame, FrameTrack& track) const {
+std::optional<FramePose> Tracker::match_last(const ObservedFrame& frame, TrackingResult& track) const {
   const Rigid3 last_from_world = last_.world_from_camera.inverse();
   std::vector<Eigen::Vector3d> points = points_shown(map_, observed_, last_);
   for (Eigen::Vector3d& point : points) point = last_from_world * point;
   const Motion motion = estimate_motion(map_.rig(), {observed_, points}, frame, options_);
-  track.decision = decide(motion, options_, steps_between(observed_.stamp_ns, frame.stamp_ns, options_));
+  track.status =
+      tracking_status(motion, options_, steps_between(observed_.stamp_ns, frame.stamp_ns, options_));
   track.matches = motion.matches;
   track.inliers = motion.inliers;
-  if (track.decision == KeyframeDecision::not_matched || track.decision == KeyframeDecision::too_far)
+  if (track.status == TrackingStatus::lost || track.status == TrackingStatus::implausible)
     return std::nullopt;
-  TrackedFrame current;
+  FramePose current;
   current.world_from_camera = last_.world_from_camera * motion.current_from_reference.inverse();
   current.landmarks.resize(frame.observations.size());
   for (const Match& pair : motion.pairs) {
@@ -86,25 +87,25 @@ std::optional<TrackedFrame> Tracker::match_last(const ObservedFrame& frame, Fram
 
 /// By the predicted motion; where that finds much less than the last frame showed, or nothing is known to
 /// predict by, also without: points far away agree with nearly any motion, and so with a wrong one.
-std::optional<TrackedFrame> Tracker::follow(const ObservedFrame& frame, FrameTrack& track) const {
-  std::optional<TrackedFrame> current = follow_motion(frame);
+std::optional<FramePose> Tracker::follow(const ObservedFrame& frame, TrackingResult& track) const {
+  std::optional<FramePose> current = follow_motion(frame);
   if (current && motion_known_ && 2 * current->inliers >= last_.inliers) return current;
-  std::optional<TrackedFrame> matched = match_last(frame, track);
+  std::optional<FramePose> matched = match_last(frame, track);
   if (matched && (!current || matched->inliers > current->inliers)) return matched;
   return current;
 }
 
 /// False, and why in `track`, for a pose that the camera cannot have come to.
-bool Tracker::admit(const ObservedFrame& frame, const TrackedFrame& current, KeyframeId reference,
-                    FrameTrack& track) const {
+bool Tracker::admit(const ObservedFrame& frame, const FramePose& current, KeyframeId reference,
+                    TrackingResult& track) const {
   if (known_.allow(map_, reference, current.world_from_camera, frame.stamp_ns, options_)) return true;
-  track.decision = KeyframeDecision::too_far;
+  track.status = TrackingStatus::implausible;
   track.matches = current.matches;
   track.inliers = current.inliers;
   return false;
 }
 
-std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, FrameTrack& track) {
+std::optional<FramePose> Tracker::find_again(const ObservedFrame& frame, TrackingResult& track) {
   auto found = relocalize(indexed_, frame, options_, executor_);
   if (!found || !admit(frame, found->tracked, found->keyframe, track)) return std::nullopt;
   track.relocalized = lost_;
@@ -112,7 +113,7 @@ std::optional<TrackedFrame> Tracker::find_again(const ObservedFrame& frame, Fram
   return std::move(found->tracked);
 }
 
-bool Tracker::is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const {
+bool Tracker::is_keyframe_due(const ObservedFrame& frame, const FramePose& current) const {
   const Rigid3 motion = map_.world_from_camera(reference_).inverse() * current.world_from_camera;
   const bool is_weak = current.inliers < options_.weak_inliers;
   // a view that is poor is soon lost; but a camera at rest needs no keyframes, however poor the view
@@ -124,16 +125,16 @@ bool Tracker::is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& cu
 }
 
 /// The keyframe that shows most of what the frame shows.
-void Tracker::refer_to_best(const TrackedFrame& current) {
+void Tracker::refer_to_best(const FramePose& current) {
   const auto views = keyframes_showing(map_, current.landmarks);
   if (!views.empty()) reference_ = views.front().keyframe;
 }
 
-void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track) {
+void Tracker::accept(ObservedFrame&& frame, FramePose&& current, TrackingResult& track) {
   current_from_last_ = lost_ ? Rigid3{} : current.world_from_camera.inverse() * last_.world_from_camera;
   motion_known_ = !lost_;
   refer_to_best(current);
-  track.decision = is_keyframe_due(frame, current) ? KeyframeDecision::keyframe : KeyframeDecision::too_close;
+  track.status = is_keyframe_due(frame, current) ? TrackingStatus::keyframe : TrackingStatus::tracked;
   track.matches = current.matches;
   track.inliers = current.inliers;
   track.reference = reference_;
@@ -144,9 +145,9 @@ void Tracker::accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& 
   last_ = std::move(current);
 }
 
-FrameTrack Tracker::track(ObservedFrame&& frame) {
-  FrameTrack track{frame.frame, frame.stamp_ns, {}, false, std::nullopt, {}, 0, 0};
-  std::optional<TrackedFrame> current;
+TrackingResult Tracker::track(ObservedFrame&& frame) {
+  TrackingResult track{frame.frame, frame.stamp_ns, {}, false, std::nullopt, {}, 0, 0};
+  std::optional<FramePose> current;
   if (!lost_) {
     current = follow(frame, track);
     if (current) (void)refine_in_map(map_, frame, options_, *current);

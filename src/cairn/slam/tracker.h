@@ -4,17 +4,17 @@
 #include <optional>
 
 #include "cairn/core/executor.h"
+#include "cairn/slam/frame_pose.h"
 #include "cairn/slam/indexed_map.h"
 #include "cairn/slam/motion_limit.h"
-#include "cairn/slam/tracked_frame.h"
 
 namespace cairn {
 
 /// What became of one frame.
-struct FrameTrack {
+struct TrackingResult {
   FrameId frame;
   std::int64_t stamp_ns = 0;
-  KeyframeDecision decision = KeyframeDecision::not_matched;
+  TrackingStatus status = TrackingStatus::lost;
   bool relocalized = false;  ///< found again after being lost
   std::optional<KeyframeId>
       reference;  ///< where the pose is known: relative to this keyframe, its own if it is one
@@ -33,11 +33,11 @@ class Tracker {
  public:
   Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed);
 
-  /// The pose of the next frame, which stays here as last(). Its decision is keyframe where one is due.
-  FrameTrack track(ObservedFrame&& frame);
+  /// Tracks the next frame, which stays here as last(). Its status is keyframe if one is due.
+  TrackingResult track(ObservedFrame&& frame);
   /// The last frame that was given to track or begin, and what is known of it; meaningful while not lost.
   [[nodiscard]] const ObservedFrame& last_observed() const { return observed_; }
-  [[nodiscard]] const TrackedFrame& last() const { return last_; }
+  [[nodiscard]] const FramePose& last() const { return last_; }
   [[nodiscard]] KeyframeId reference() const { return reference_; }
   [[nodiscard]] bool lost() const { return lost_; }
 
@@ -47,16 +47,17 @@ class Tracker {
   void follow_map();
 
  private:
-  [[nodiscard]] std::optional<TrackedFrame> follow_motion(const ObservedFrame& frame) const;
-  [[nodiscard]] std::optional<TrackedFrame> match_last(const ObservedFrame& frame, FrameTrack& track) const;
-  [[nodiscard]] std::optional<TrackedFrame> follow(const ObservedFrame& frame, FrameTrack& track) const;
-  [[nodiscard]] std::optional<TrackedFrame> find_again(const ObservedFrame& frame, FrameTrack& track);
-  [[nodiscard]] bool admit(const ObservedFrame& frame, const TrackedFrame& current, KeyframeId reference,
-                           FrameTrack& track) const;
-  [[nodiscard]] std::vector<FoundPoint> find_shown_before(const PosedFrame& frame, double radius_px) const;
-  [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const TrackedFrame& current) const;
-  void refer_to_best(const TrackedFrame& current);
-  void accept(ObservedFrame&& frame, TrackedFrame&& current, FrameTrack& track);
+  [[nodiscard]] std::optional<FramePose> follow_motion(const ObservedFrame& frame) const;
+  [[nodiscard]] std::optional<FramePose> match_last(const ObservedFrame& frame, TrackingResult& track) const;
+  [[nodiscard]] std::optional<FramePose> follow(const ObservedFrame& frame, TrackingResult& track) const;
+  [[nodiscard]] std::optional<FramePose> find_again(const ObservedFrame& frame, TrackingResult& track);
+  [[nodiscard]] bool admit(const ObservedFrame& frame, const FramePose& current, KeyframeId reference,
+                           TrackingResult& track) const;
+  [[nodiscard]] std::vector<Correspondence> find_shown_before(const PosedFrame& frame,
+                                                              double radius_px) const;
+  [[nodiscard]] bool is_keyframe_due(const ObservedFrame& frame, const FramePose& current) const;
+  void refer_to_best(const FramePose& current);
+  void accept(ObservedFrame&& frame, FramePose&& current, TrackingResult& track);
 
   const SlamOptions& options_;
   const Executor& executor_;
@@ -64,7 +65,7 @@ class Tracker {
   const Map& map_;
   KeyframeId reference_;
   ObservedFrame observed_;
-  TrackedFrame last_;
+  FramePose last_;
   Rigid3 reference_from_last_;
   Rigid3 current_from_last_;  // the last motion, with which the next one is predicted
   KnownPoses known_;

@@ -20,10 +20,12 @@ class TrackerTest : public testing::Test {
     tracker_.refer_to(first);
   }
 
-  FrameTrack track(const Rigid3& truth) { return tracker_.track(maker_.world.see(truth, ++frame_).observed); }
-  FrameTrack track_nothing() { return tracker_.track(testkit::blank_frame(0, ++frame_)); }
+  TrackingResult track(const Rigid3& truth) {
+    return tracker_.track(maker_.world.see(truth, ++frame_).observed);
+  }
+  TrackingResult track_nothing() { return tracker_.track(testkit::blank_frame(0, ++frame_)); }
 
-  [[nodiscard]] double error(const FrameTrack& track, const Rigid3& truth) const {
+  [[nodiscard]] double error(const TrackingResult& track, const Rigid3& truth) const {
     const Rigid3 pose = maker_.map.world_from_camera(*track.reference) * track.reference_from_frame;
     return motion_norm(pose.inverse() * truth);
   }
@@ -38,7 +40,7 @@ class TrackerTest : public testing::Test {
 TEST_F(TrackerTest, follows_the_camera) {
   for (int k = 1; k <= 15; ++k) {
     const Rigid3 truth{rotation_exp({0, 0.01 * k, 0}), {0.02 * k, 0, 0.01 * k}};
-    const FrameTrack seen = track(truth);
+    const TrackingResult seen = track(truth);
     ASSERT_TRUE(seen.tracked()) << k;
     EXPECT_LT(error(seen, truth), 4e-3) << k;
     EXPECT_EQ(*seen.reference, KeyframeId{0});
@@ -50,31 +52,31 @@ TEST_F(TrackerTest, follows_the_camera) {
 
 TEST_F(TrackerTest, finds_the_motion_without_a_prediction) {
   const Rigid3 truth{rotation_exp({0, 0.25, 0}), {0.1, 0, 0}};  // 130 pixels at once
-  const FrameTrack seen = track(truth);
+  const TrackingResult seen = track(truth);
   ASSERT_TRUE(seen.tracked());
   EXPECT_LT(error(seen, truth), 3e-3);
 }
 
 TEST_F(TrackerTest, a_keyframe_is_due_when_the_view_has_changed) {
-  EXPECT_EQ(track(testkit::aside(0.02)).decision, KeyframeDecision::too_close);
-  EXPECT_EQ(track(testkit::aside(0.05)).decision, KeyframeDecision::too_close);
-  EXPECT_EQ(track(testkit::aside(0.25)).decision, KeyframeDecision::keyframe);
+  EXPECT_EQ(track(testkit::aside(0.02)).status, TrackingStatus::tracked);
+  EXPECT_EQ(track(testkit::aside(0.05)).status, TrackingStatus::tracked);
+  EXPECT_EQ(track(testkit::aside(0.25)).status, TrackingStatus::keyframe);
 }
 
 TEST_F(TrackerTest, a_keyframe_is_due_when_little_is_left_to_follow) {
   options_.weak_inliers = 100000;
-  EXPECT_EQ(track(testkit::aside(0.01)).decision, KeyframeDecision::too_close) << "nearly at rest";
-  EXPECT_EQ(track(testkit::aside(0.05)).decision, KeyframeDecision::keyframe);
+  EXPECT_EQ(track(testkit::aside(0.01)).status, TrackingStatus::tracked) << "nearly at rest";
+  EXPECT_EQ(track(testkit::aside(0.05)).status, TrackingStatus::keyframe);
 }
 
 TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
   ASSERT_TRUE(track(testkit::aside(0.05)).tracked());
-  const FrameTrack nothing = track_nothing();
+  const TrackingResult nothing = track_nothing();
   EXPECT_FALSE(nothing.tracked());
-  EXPECT_EQ(nothing.decision, KeyframeDecision::not_matched);
+  EXPECT_EQ(nothing.status, TrackingStatus::lost);
   EXPECT_TRUE(tracker_.lost());
   const Rigid3 truth = testkit::aside(0.4);
-  const FrameTrack again = track(truth);
+  const TrackingResult again = track(truth);
   ASSERT_TRUE(again.tracked());
   EXPECT_TRUE(again.relocalized);
   EXPECT_FALSE(tracker_.lost());
@@ -85,9 +87,10 @@ TEST_F(TrackerTest, is_lost_where_nothing_is_seen_and_finds_itself_again) {
 TEST_F(TrackerTest, a_motion_of_max_motion_or_more_is_refused_by_whatever_way_it_is_found) {
   options_.max_motion = 0.15;
   ASSERT_TRUE(track(testkit::aside(0.1)).tracked());
-  const FrameTrack far = track(testkit::aside(0.3));  // by the last motion, by the map, and by relocalisation
+  const TrackingResult far =
+      track(testkit::aside(0.3));  // by the last motion, by the map, and by relocalisation
   EXPECT_FALSE(far.tracked());
-  EXPECT_EQ(far.decision, KeyframeDecision::too_far);
+  EXPECT_EQ(far.status, TrackingStatus::implausible);
   EXPECT_GT(far.inliers, 100) << "that it was seen well is known";
   EXPECT_TRUE(tracker_.lost());
   EXPECT_FALSE(track(testkit::aside(0.5)).tracked()) << "nor by being lost before";
@@ -99,7 +102,7 @@ TEST_F(TrackerTest, a_refused_frame_counts_as_a_step) {
   options_.frame_period_s = 0.033;
   ASSERT_TRUE(track(testkit::aside(0.1)).tracked());
   EXPECT_FALSE(track(testkit::aside(0.35)).tracked());
-  const FrameTrack again = track(testkit::aside(0.35));  // two steps of 0.125
+  const TrackingResult again = track(testkit::aside(0.35));  // two steps of 0.125
   EXPECT_TRUE(again.tracked());
   EXPECT_TRUE(again.relocalized);
   for (int k = 1; k <= 5; ++k) EXPECT_EQ(track(testkit::aside(0.35 + 0.16 * k)).tracked(), false) << k;
@@ -121,7 +124,7 @@ TEST_F(TrackerTest, moves_with_the_map) {
   for (const LandmarkId id : map.landmark_ids()) map.move(id, moved * map[id].point_in_world);
   tracker_.follow_map();
   EXPECT_LT(motion_norm(tracker_.last().world_from_camera.inverse() * moved * before), 1e-9);
-  const FrameTrack seen = track(testkit::aside(0.1));
+  const TrackingResult seen = track(testkit::aside(0.1));
   ASSERT_TRUE(seen.tracked());
   EXPECT_FALSE(seen.relocalized);
   EXPECT_LT(error(seen, moved * testkit::aside(0.1)), 2e-3);
@@ -143,7 +146,7 @@ TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
   Map& map = maker_.map;
   for (const LandmarkId id : map.landmark_ids())
     if (id.value % 2 == 0) map.erase(id);
-  const FrameTrack seen = track(testkit::aside(0.1));
+  const TrackingResult seen = track(testkit::aside(0.1));
   ASSERT_TRUE(seen.tracked());
   EXPECT_LT(error(seen, testkit::aside(0.1)), 2e-3);
   for (const LandmarkId id : tracker_.last().landmarks)

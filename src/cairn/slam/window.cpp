@@ -29,17 +29,17 @@ class WindowBuilder {
       const auto point = static_cast<std::int32_t>(window_.points.size());
       window_.points.push_back(id);
       window_.problem.points_in_world.push_back(map_[id].point_in_world);
-      for (const Sighting& sighting : map_[id].sightings) {
-        const std::int32_t camera = camera_of_[static_cast<std::size_t>(sighting.keyframe.value)];
+      for (const ObservationRef& observation : map_[id].observations) {
+        const std::int32_t camera = camera_of_[static_cast<std::size_t>(observation.keyframe.value)];
         if (camera == kAbsent) continue;
-        const auto& seen = map_[sighting.keyframe].observed.observations;
+        const auto& seen = map_[observation.keyframe].observed.observations;
         window_.problem.observations.push_back(
-            {camera, point, seen[static_cast<std::size_t>(sighting.feature)]});
+            {camera, point, seen[static_cast<std::size_t>(observation.feature)]});
       }
     }
   }
 
-  [[nodiscard]] Window take() { return std::move(window_); }
+  [[nodiscard]] Window build() { return std::move(window_); }
 
  private:
   const Map& map_;
@@ -52,7 +52,7 @@ void move_with_its_own(KeyframeId id, const Rigid3& world_from_camera, Map& map)
   const Rigid3 new_from_old = world_from_camera * map[id].world_from_camera.inverse();
   map.move(id, world_from_camera);
   for (const LandmarkId landmark : map[id].landmarks) {
-    if (landmark.valid() && map[landmark].sightings.size() == 1)
+    if (landmark.valid() && map[landmark].observations.size() == 1)
       map.move(landmark, new_from_old * map[landmark].point_in_world);
   }
 }
@@ -64,35 +64,37 @@ Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& 
   free.push_back(keyframe);
   std::sort(free.begin(), free.end());
   const auto landmarks = landmarks_of(map, free, options.trial_keyframes);
-  std::vector<SharedView> around = keyframes_showing(map, landmarks);
-  std::erase_if(
-      around, [&](const SharedView& v) { return std::binary_search(free.begin(), free.end(), v.keyframe); });
+  std::vector<CovisibleKeyframe> around = keyframes_showing(map, landmarks);
+  std::erase_if(around, [&](const CovisibleKeyframe& v) {
+    return std::binary_search(free.begin(), free.end(), v.keyframe);
+  });
   around.resize(std::min(around.size(), static_cast<std::size_t>(options.window_fixed)));
   WindowBuilder builder(map);
   for (const KeyframeId id : free) builder.add_camera(id, around.empty() && id == free.front());
-  for (const SharedView& view : around) builder.add_camera(view.keyframe, true);
+  for (const CovisibleKeyframe& view : around) builder.add_camera(view.keyframe, true);
   builder.add_points(landmarks);
-  return builder.take();
+  return builder.build();
 }
 
-Window whole_part(const Map& map, std::int32_t part) {
+Window whole_component(const Map& map, std::int32_t component) {
   WindowBuilder builder(map);
   bool first = true;
   for (const KeyframeId id : map.keyframe_ids()) {
-    if (map[id].part != part) continue;
+    if (map[id].component != component) continue;
     builder.add_camera(id, first);
     first = false;
   }
   std::vector<LandmarkId> landmarks;
   for (const LandmarkId id : map.landmark_ids()) {
-    const auto& sightings = map[id].sightings;
-    if (sightings.size() > 1 && map[sightings.front().keyframe].part == part) landmarks.push_back(id);
+    const auto& observations = map[id].observations;
+    if (observations.size() > 1 && map[observations.front().keyframe].component == component)
+      landmarks.push_back(id);
   }
   builder.add_points(landmarks);
-  return builder.take();
+  return builder.build();
 }
 
-void take_over(const Window& window, const BundleReport& report, Map& map) {
+void apply_adjustment(const Window& window, const BundleReport& report, Map& map) {
   for (std::size_t c = 0; c < window.cameras.size(); ++c) {
     if (window.problem.camera_fixed[c] == 0)
       move_with_its_own(window.cameras[c], window.problem.camera_from_world[c].inverse(), map);
@@ -102,8 +104,8 @@ void take_over(const Window& window, const BundleReport& report, Map& map) {
   for (std::size_t i = 0; i < report.inlier.size(); ++i) {
     if (report.inlier[i] != 0) continue;
     const BundleObservation& seen = window.problem.observations[i];
-    map.remove_sighting(window.points[static_cast<std::size_t>(seen.point)],
-                        window.cameras[static_cast<std::size_t>(seen.camera)]);
+    map.remove_observation(window.points[static_cast<std::size_t>(seen.point)],
+                           window.cameras[static_cast<std::size_t>(seen.camera)]);
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-/// A part of the map as a bundle adjustment, and what came of which.
+/// A component of the map as a bundle adjustment, and what came of which.
 struct Window {
   BundleProblem problem;
   std::vector<KeyframeId> cameras;  ///< one per camera of the problem
@@ -21,10 +21,10 @@ struct Window {
 /// where no other is.
 [[nodiscard]] Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options);
 
-/// All keyframes of a part, the first one held, and all their landmarks seen at least twice.
-[[nodiscard]] Window whole_part(const Map& map, std::int32_t part);
+/// All keyframes of a component, the first one held, and all their landmarks seen at least twice.
+[[nodiscard]] Window whole_component(const Map& map, std::int32_t component);
 
-/// Takes the adjusted places over and ends the sightings that do not agree with them.
-void take_over(const Window& window, const BundleReport& report, Map& map);
+/// Takes the adjusted places over and ends the observations that do not agree with them.
+void apply_adjustment(const Window& window, const BundleReport& report, Map& map);
 
 }  // namespace cairn

@@ -59,15 +59,15 @@ TEST(Window, has_all_that_its_free_keyframes_show) {
   const Map& map = maker.map;
   const Window window = window_around(map, {7}, small_window());
   std::set<LandmarkId> shown;
-  std::size_t sightings = 0;
+  std::size_t observations = 0;
   for (const KeyframeId id : cameras_that_are(false, window))
     for (const LandmarkId landmark : map[id].landmarks) shown.insert(landmark);
   for (const LandmarkId landmark : shown)
-    for (const Sighting& sighting : map[landmark].sightings)
-      sightings += sighting.keyframe.value >= 3 ? 1 : 0;
+    for (const ObservationRef& observation : map[landmark].observations)
+      observations += observation.keyframe.value >= 3 ? 1 : 0;
   EXPECT_EQ(std::set<LandmarkId>(window.points.begin(), window.points.end()), shown);
   EXPECT_EQ(window.points.size(), shown.size());
-  EXPECT_EQ(window.problem.observations.size(), sightings);
+  EXPECT_EQ(window.problem.observations.size(), observations);
 }
 
 TEST(Window, is_what_the_map_says) {
@@ -82,21 +82,21 @@ TEST(Window, is_what_the_map_says) {
   }
 }
 
-TEST(Window, the_whole_of_a_part_leaves_other_parts_and_single_sightings_out) {
+TEST(Window, the_whole_of_a_component_leaves_other_components_and_single_observations_out) {
   testkit::MapMaker maker = along_a_wall();
   Map& map = maker.map;
   const KeyframeId other = map.add_keyframe(testkit::blank_frame(2), {}, {}, 1);
   (void)map.add_landmark({0, 0, 0}, {other, 0});
-  const Window window = whole_part(map, 0);
+  const Window window = whole_component(map, 0);
   EXPECT_EQ(cameras_that_are(true, window), (std::vector<KeyframeId>{{0}}));
   EXPECT_EQ(cameras_that_are(false, window).size(), 7U);
   std::size_t seen_again = 0;
-  for (const LandmarkId id : map.landmark_ids()) seen_again += map[id].sightings.size() > 1 ? 1 : 0;
+  for (const LandmarkId id : map.landmark_ids()) seen_again += map[id].observations.size() > 1 ? 1 : 0;
   EXPECT_EQ(window.points.size(), seen_again);
   EXPECT_GT(seen_again, 300U);
 }
 
-TEST(TakeOver, moves_what_is_free_and_ends_sightings_that_do_not_agree) {
+TEST(TakeOver, moves_what_is_free_and_ends_observations_that_do_not_agree) {
   testkit::MapMaker maker = along_a_wall();
   Map& map = maker.map;
   Window window = window_around(map, {7}, small_window());
@@ -106,12 +106,12 @@ TEST(TakeOver, moves_what_is_free_and_ends_sightings_that_do_not_agree) {
   const BundleObservation bad = window.problem.observations[10];
   const auto landmark = window.points[static_cast<std::size_t>(bad.point)];
   const auto keyframe = window.cameras[static_cast<std::size_t>(bad.camera)];
-  const std::size_t sightings = map[landmark].sightings.size();
+  const std::size_t observations = map[landmark].observations.size();
   for (Rigid3& camera : window.problem.camera_from_world) camera.translation.y() += 1;
   for (Eigen::Vector3d& point : window.problem.points_in_world) point.y() -= 2;
   const Eigen::Vector3d before = map[landmark].point_in_world;
-  take_over(window, report, map);
-  EXPECT_EQ(map[landmark].sightings.size(), sightings - 1);
+  apply_adjustment(window, report, map);
+  EXPECT_EQ(map[landmark].observations.size(), observations - 1);
   EXPECT_EQ(std::count(map[keyframe].landmarks.begin(), map[keyframe].landmarks.end(), landmark), 0);
   EXPECT_NEAR(map[landmark].point_in_world.y(), before.y() - 2, 1e-12);
   EXPECT_NEAR(map[KeyframeId{6}].world_from_camera.translation.y(), -1, 1e-12);
@@ -126,7 +126,7 @@ TEST(TakeOver, an_adjusted_window_is_nearer_to_the_truth) {
     map.move(KeyframeId{k}, Rigid3{rotation_exp({0, 0.01, 0}), {0.02, 0, 0}} * testkit::aside(0.5 * k));
   Window window = window_around(map, {7}, small_window());
   const BundleReport report = adjust_bundle(window.problem, {});
-  take_over(window, report, map);
+  apply_adjustment(window, report, map);
   for (const std::int32_t k : {5, 6, 7})
     EXPECT_LT(motion_norm(map[KeyframeId{k}].world_from_camera.inverse() * testkit::aside(0.5 * k)), 1e-3);
 }

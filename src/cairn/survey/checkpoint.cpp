@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "cairn/core/append_file.h"
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/core/spool.h"
 #include "cairn/map/binary_file.h"
 
 namespace cairn {
@@ -17,14 +17,14 @@ constexpr const char* kNextName = "checkpoint.next";
 
 // Each put has its get below, in the same order.
 
-void put(const Sighting& sighting, ByteWriter& writer) {
-  writer.put(sighting.keyframe.value);
-  writer.put(sighting.feature);
+void put(const ObservationRef& observation, ByteWriter& writer) {
+  writer.put(observation.keyframe.value);
+  writer.put(observation.feature);
 }
 
-void get(BinaryReader& reader, Sighting& sighting) {
-  sighting.keyframe.value = reader.get<std::int32_t>();
-  sighting.feature = reader.get<std::int32_t>();
+void get(BinaryReader& reader, ObservationRef& observation) {
+  observation.keyframe.value = reader.get<std::int32_t>();
+  observation.feature = reader.get<std::int32_t>();
 }
 
 template <class Matrix>
@@ -72,39 +72,40 @@ void get(BinaryReader& reader, std::vector<Item>& items) {
 }
 
 void put(const Track& track, ByteWriter& writer) {
-  put(track.sightings, writer);
+  put(track.observations, writer);
   put(track.measured, writer);
   put_matrix(track.point_in_world, writer);
 }
 
 void get(BinaryReader& reader, Track& track) {
-  get(reader, track.sightings);
+  get(reader, track.observations);
   get(reader, track.measured);
   get_matrix(reader, track.point_in_world);
 }
 
-void put(const Spread& spread, ByteWriter& writer) {
-  for (const double value : {spread.mean, spread.min, spread.max, spread.std}) writer.put(value);
+void put(const ValueRange& range, ByteWriter& writer) {
+  for (const double value : {range.mean, range.min, range.max, range.std}) writer.put(value);
 }
 
-void get(BinaryReader& reader, Spread& spread) {
-  for (double* value : {&spread.mean, &spread.min, &spread.max, &spread.std}) *value = reader.get<double>();
+void get(BinaryReader& reader, ValueRange& range) {
+  for (double* value : {&range.mean, &range.min, &range.max, &range.std}) *value = reader.get<double>();
 }
 
 void put(const LandmarkIndicators& indicators, ByteWriter& writer) {
   writer.put(indicators.frames);
   writer.put(indicators.rms_px);
-  for (const Spread* spread :
+  for (const ValueRange* range :
        {&indicators.distance, &indicators.lateral, &indicators.depth, &indicators.angle_deg})
-    put(*spread, writer);
+    put(*range, writer);
   writer.put(indicators.max_ray_angle_deg);
 }
 
 void get(BinaryReader& reader, LandmarkIndicators& indicators) {
   indicators.frames = reader.get<int>();
   indicators.rms_px = reader.get<double>();
-  for (Spread* spread : {&indicators.distance, &indicators.lateral, &indicators.depth, &indicators.angle_deg})
-    get(reader, *spread);
+  for (ValueRange* range :
+       {&indicators.distance, &indicators.lateral, &indicators.depth, &indicators.angle_deg})
+    get(reader, *range);
   indicators.max_ray_angle_deg = reader.get<double>();
 }
 
@@ -121,7 +122,7 @@ Rigid3 get_transform(BinaryReader& reader) {
 }
 
 void put(const SurveyLandmark& landmark, ByteWriter& writer) {
-  put(landmark.sightings, writer);
+  put(landmark.observations, writer);
   put_matrix(landmark.point_in_world, writer);
   put_matrix(landmark.cofactor, writer);
   writer.put(landmark.squared_error_sum);
@@ -132,7 +133,7 @@ void put(const SurveyLandmark& landmark, ByteWriter& writer) {
 }
 
 void get(BinaryReader& reader, SurveyLandmark& landmark) {
-  get(reader, landmark.sightings);
+  get(reader, landmark.observations);
   get_matrix(reader, landmark.point_in_world);
   get_matrix(reader, landmark.cofactor);
   landmark.squared_error_sum = reader.get<double>();
@@ -144,13 +145,20 @@ void get(BinaryReader& reader, SurveyLandmark& landmark) {
 
 /// The numbers of SurveyCounts, in its order.
 std::vector<std::int64_t*> fields_of(SurveyCounts& counts) {
-  std::vector<std::int64_t*> fields{&counts.frames,        &counts.without_pose,     &counts.standing,
-                                    &counts.unreadable,    &counts.features,         &counts.measured,
-                                    &counts.matched,       &counts.tracks,           &counts.too_short,
-                                    &counts.contradictory, &counts.dropped_sightings};
+  std::vector<std::int64_t*> fields{&counts.frames,
+                                    &counts.without_pose,
+                                    &counts.stationary,
+                                    &counts.unreadable,
+                                    &counts.features,
+                                    &counts.measured,
+                                    &counts.matched,
+                                    &counts.tracks,
+                                    &counts.too_short,
+                                    &counts.inconsistent,
+                                    &counts.dropped_observations};
   for (std::int64_t& cleaned : counts.cleaned) fields.push_back(&cleaned);
   fields.insert(fields.end(),
-                {&counts.merged, &counts.landmarks, &counts.sightings, &counts.dominated_by_poses});
+                {&counts.merged, &counts.landmarks, &counts.observations, &counts.dominated_by_poses});
   return fields;
 }
 

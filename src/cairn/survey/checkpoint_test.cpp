@@ -37,7 +37,7 @@ SurveyCounts all_different() {
 
 SurveyLandmark make_landmark(const FrameBuffer& frames, std::int32_t feature) {
   SurveyLandmark landmark =
-      fit_sightings(testkit::kDriveRig, frames, testkit::sightings_of(feature, 4, 8), SurveyOptions())
+      fit_observations(testkit::kDriveRig, frames, testkit::observations_of(feature, 4, 8), SurveyOptions())
           .value();
   landmark.pose_covariance = Eigen::Vector3d(0.1, 0.2, 0.3 + feature).asDiagonal();
   landmark.variance_factor = 1.75;
@@ -71,8 +71,8 @@ SurveyState make_state() {
 
 MapWriterState writer_state() {
   MapWriterState state{{}, 4, 77, 4321, 1234};
-  for (std::size_t i = 0; i < state.spools.size(); ++i)
-    state.spools[i] = {100 * i, static_cast<std::uint32_t>(7 * i)};
+  for (std::size_t i = 0; i < state.append_files.size(); ++i)
+    state.append_files[i] = {100 * i, static_cast<std::uint32_t>(7 * i)};
   return state;
 }
 
@@ -119,12 +119,12 @@ void expect_equal(const SurveyFrame& a, const SurveyFrame& b) {
 }
 
 void expect_equal(const Track& a, const Track& b) {
-  EXPECT_EQ(a.sightings, b.sightings);
+  EXPECT_EQ(a.observations, b.observations);
   EXPECT_EQ(a.measured, b.measured);
   EXPECT_EQ(a.point_in_world, b.point_in_world);
 }
 
-void expect_equal(const Spread& a, const Spread& b) {
+void expect_equal(const ValueRange& a, const ValueRange& b) {
   EXPECT_EQ(a.mean, b.mean);
   EXPECT_EQ(a.min, b.min);
   EXPECT_EQ(a.max, b.max);
@@ -142,7 +142,7 @@ void expect_equal(const LandmarkIndicators& a, const LandmarkIndicators& b) {
 }
 
 void expect_equal(const SurveyLandmark& a, const SurveyLandmark& b) {
-  EXPECT_EQ(a.sightings, b.sightings);
+  EXPECT_EQ(a.observations, b.observations);
   EXPECT_EQ(a.point_in_world, b.point_in_world);
   EXPECT_EQ(a.cofactor, b.cofactor);
   EXPECT_EQ(a.squared_error_sum, b.squared_error_sum);
@@ -178,11 +178,11 @@ TEST_F(CheckpointTest, gives_the_writers_state_back) {
   const auto checkpoint = read();
   ASSERT_TRUE(checkpoint.has_value());
   const MapWriterState before = writer_state();
-  EXPECT_EQ(checkpoint->writer.spools, before.spools);
+  EXPECT_EQ(checkpoint->writer.append_files, before.append_files);
   EXPECT_EQ(checkpoint->writer.frames, before.frames);
   EXPECT_EQ(checkpoint->writer.landmarks, before.landmarks);
   EXPECT_EQ(checkpoint->writer.features, before.features);
-  EXPECT_EQ(checkpoint->writer.sightings, before.sightings);
+  EXPECT_EQ(checkpoint->writer.observations, before.observations);
 }
 
 TEST_F(CheckpointTest, written_again_it_has_the_same_bytes) {

@@ -4,12 +4,12 @@
 namespace cairn {
 namespace {
 
-bool holds(const SpreadLimits& limits, const Spread& spread) {
+bool holds(const ValueLimits& limits, const ValueRange& range) {
   const auto is_at_most = [](double value, const std::optional<double>& bound) {
     return !bound || value <= *bound;
   };
-  return (!limits.min || spread.min >= *limits.min) && is_at_most(spread.max, limits.max) &&
-         is_at_most(spread.mean, limits.max_mean) && is_at_most(spread.std, limits.max_std);
+  return (!limits.min || range.min >= *limits.min) && is_at_most(range.max, limits.max) &&
+         is_at_most(range.mean, limits.max_mean) && is_at_most(range.std, limits.max_std);
 }
 
 }  // namespace

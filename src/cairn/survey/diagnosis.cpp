@@ -74,13 +74,13 @@ std::string likely_cause(const SurveyResult& result, const SurveyOptions& option
   constexpr std::int64_t kHardlyOne = 10;
   const std::int64_t made = sum_of(counts.cleaned);
   const auto worst = std::max_element(counts.cleaned.begin(), counts.cleaned.end());
-  if (made > 0 && made >= counts.contradictory && kHardlyOne * made >= counts.tracks) {
+  if (made > 0 && made >= counts.inconsistent && kHardlyOne * made >= counts.tracks) {
     const auto rule = static_cast<CleaningRule>(worst - counts.cleaned.begin());
     return fmt::format("Most landmarks, {} of {}, fell to {}.", *worst, made,
                        describe_rule(rule, options.cleaning)) +
            describe_poses(result);
   }
-  const bool lost = counts.too_short >= counts.contradictory;
+  const bool lost = counts.too_short >= counts.inconsistent;
   return fmt::format("{}: look at the poses, their clock (--pose-offset) and the calibration.",
                      lost ? "Most features are not found again where the poses place them"
                           : "What most tracks show fits no point as the poses have it") +
@@ -105,7 +105,7 @@ std::string explain_no_landmarks(const SurveyResult& result, const SurveyOptions
       "not one landmark: {} tracks of features, {} in too few frames, {} that contradict the poses, {} that "
       "fell "
       "to a limit.\n  {}",
-      counts.tracks, counts.too_short, counts.contradictory, sum_of(counts.cleaned),
+      counts.tracks, counts.too_short, counts.inconsistent, sum_of(counts.cleaned),
       likely_cause(result, options));
 }
 

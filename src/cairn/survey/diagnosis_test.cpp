@@ -24,7 +24,7 @@ TEST(ExplainNoLandmarks, names_the_rule_that_most_fell_to) {
   SurveyResult result = without_landmarks();
   result.counts.tracks = 900;
   result.counts.too_short = 640;  // as many are of a good drive
-  result.counts.contradictory = 30;
+  result.counts.inconsistent = 30;
   result.counts.cleaned[static_cast<std::size_t>(CleaningRule::ray_angle)] = 200;
   result.counts.cleaned[static_cast<std::size_t>(CleaningRule::rms)] = 30;
   result.stated = {1.5, 0.25};
@@ -37,10 +37,10 @@ TEST(ExplainNoLandmarks, names_the_rule_that_most_fell_to) {
 
 TEST(ExplainNoLandmarks, names_what_is_lacking) {
   SurveyResult result = without_landmarks();
-  result.counts.contradictory = 280;
+  result.counts.inconsistent = 280;
   result.counts.too_short = 20;
   EXPECT_TRUE(says(explain_no_landmarks(result, {}), "fits no point"));
-  std::swap(result.counts.contradictory, result.counts.too_short);
+  std::swap(result.counts.inconsistent, result.counts.too_short);
   EXPECT_TRUE(says(explain_no_landmarks(result, {}), "not found again"));
   result.counts.measured = 0;
   EXPECT_TRUE(says(explain_no_landmarks(result, {}), "None of 900 features has a depth"));

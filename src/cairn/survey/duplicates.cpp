@@ -60,51 +60,54 @@ bool is_same_place(const SurveyLandmark& a, const SurveyLandmark& b, double sigm
   return difference.dot(covariance.inverse() * difference) <= sigmas * sigmas;
 }
 
-/// The sightings of the two that are nearest in time.
-std::pair<Sighting, Sighting> nearest_sightings(const SurveyLandmark& a, const SurveyLandmark& b) {
-  std::pair<Sighting, Sighting> best{a.sightings.front(), b.sightings.front()};
-  const auto gap = [](const Sighting& x, const Sighting& y) {
+/// The observations of the two that are nearest in time.
+std::pair<ObservationRef, ObservationRef> nearest_observations(const SurveyLandmark& a,
+                                                               const SurveyLandmark& b) {
+  std::pair<ObservationRef, ObservationRef> best{a.observations.front(), b.observations.front()};
+  const auto gap = [](const ObservationRef& x, const ObservationRef& y) {
     return std::abs(x.keyframe.value - y.keyframe.value);
   };
-  for (const Sighting& x : a.sightings) {
-    for (const Sighting& y : b.sightings) {
+  for (const ObservationRef& x : a.observations) {
+    for (const ObservationRef& y : b.observations) {
       if (gap(x, y) < gap(best.first, best.second)) best = {x, y};
     }
   }
   return best;
 }
 
-Descriptors descriptor_of(const FrameBuffer& frames, const Sighting& sighting) {
-  const auto row = static_cast<std::size_t>(sighting.feature);
-  return select(frames[sighting.keyframe].observed.features.descriptors, {&row, 1});
+Descriptors descriptor_of(const FrameBuffer& frames, const ObservationRef& observation) {
+  const auto row = static_cast<std::size_t>(observation.feature);
+  return select(frames[observation.keyframe].observed.features.descriptors, {&row, 1});
 }
 
 bool looks_the_same(const FrameBuffer& frames, const SurveyLandmark& a, const SurveyLandmark& b) {
-  const auto [x, y] = nearest_sightings(a, b);
+  const auto [x, y] = nearest_observations(a, b);
   const Descriptors first = descriptor_of(frames, x);
   return !match_descriptors(first, descriptor_of(frames, y), {descriptor_limit(first), 0, false}).empty();
 }
 
 /// Of both, by frame; of two in one frame that of `a`.
-std::vector<Sighting> joined_sightings(const SurveyLandmark& a, const SurveyLandmark& b) {
-  const auto is_before = [](const Sighting& x, const Sighting& y) { return x.keyframe < y.keyframe; };
-  std::vector<Sighting> joined;
-  std::set_union(a.sightings.begin(), a.sightings.end(), b.sightings.begin(), b.sightings.end(),
+std::vector<ObservationRef> joined_observations(const SurveyLandmark& a, const SurveyLandmark& b) {
+  const auto is_before = [](const ObservationRef& x, const ObservationRef& y) {
+    return x.keyframe < y.keyframe;
+  };
+  std::vector<ObservationRef> joined;
+  std::set_union(a.observations.begin(), a.observations.end(), b.observations.begin(), b.observations.end(),
                  std::back_inserter(joined), is_before);
   return joined;
 }
 
-/// Returns one landmark made of two, or nothing if not nearly all sightings agree or the one breaks a limit
-/// of cleaning that both may well hold.
+/// Returns one landmark made of two, or nothing if not nearly all observations agree or the one breaks a
+/// limit of cleaning that both may well hold.
 std::optional<SurveyLandmark> joined(const MergeInput& input, const SurveyLandmark& a,
                                      const SurveyLandmark& b) {
   const auto& [rig, frames, prior, options] = input;
   constexpr double kMinKept = 0.9;
-  const std::vector<Sighting> sightings = joined_sightings(a, b);
-  if (static_cast<int>(sightings.size()) >= options.tracks.max_frames) return std::nullopt;
-  auto landmark = fit_sightings(rig, frames, sightings, options);
-  if (!landmark ||
-      static_cast<double>(landmark->sightings.size()) < kMinKept * static_cast<double>(sightings.size()))
+  const std::vector<ObservationRef> observations = joined_observations(a, b);
+  if (static_cast<int>(observations.size()) >= options.tracks.max_frames) return std::nullopt;
+  auto landmark = fit_observations(rig, frames, observations, options);
+  if (!landmark || static_cast<double>(landmark->observations.size()) <
+                       kMinKept * static_cast<double>(observations.size()))
     return std::nullopt;
   complete_covariance(frames, prior, options.covariance.pose_errors, *landmark);
   if (failed_rule(landmark->indicators, landmark->own_covariance(), options.cleaning)) return std::nullopt;

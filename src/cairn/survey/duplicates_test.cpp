@@ -22,7 +22,8 @@ class MergeDuplicates : public testing::Test {
     return {{place, 1}, {place, 1}, {place, 1}, {place, 8}, {place + Eigen::Vector3d(2, 0, 0), 1}};
   }
   [[nodiscard]] SurveyLandmark landmark(std::int32_t feature, int first, int last) const {
-    auto fitted = fit_sightings(kDriveRig, frames_, testkit::sightings_of(feature, first, last), options_);
+    auto fitted =
+        fit_observations(kDriveRig, frames_, testkit::observations_of(feature, first, last), options_);
     EXPECT_TRUE(fitted.has_value());
     if (!fitted) return {};
     complete_covariance(frames_, prior_, true, *fitted);
@@ -43,9 +44,9 @@ TEST_F(MergeDuplicates, what_is_one_becomes_one) {
   EXPECT_EQ(merge({early}), 0);
   EXPECT_EQ(merge({late}), 1);
   ASSERT_EQ(pending_.size(), 1U);
-  std::vector<Sighting> both = early.sightings;
-  both.insert(both.end(), late.sightings.begin(), late.sightings.end());
-  EXPECT_EQ(pending_[0].sightings, both);
+  std::vector<ObservationRef> both = early.observations;
+  both.insert(both.end(), late.observations.begin(), late.observations.end());
+  EXPECT_EQ(pending_[0].observations, both);
   EXPECT_EQ(pending_[0].indicators.frames, 12);
   EXPECT_LT((pending_[0].point_in_world - points()[0].position).norm(), 0.3);
   EXPECT_LT(pending_[0].covariance().trace(), early.covariance().trace());
@@ -54,13 +55,13 @@ TEST_F(MergeDuplicates, what_is_one_becomes_one) {
             prior_.factor(pending_[0].squared_error_sum, pending_[0].redundancy));
 }
 
-TEST_F(MergeDuplicates, in_a_common_frame_the_earlier_ones_sighting_stays) {
+TEST_F(MergeDuplicates, in_a_common_frame_the_earlier_ones_observation_stays) {
   merge({landmark(0, 0, 5)});
   EXPECT_EQ(merge({landmark(1, 4, 9)}), 1);
   ASSERT_EQ(pending_.size(), 1U);
-  std::vector<Sighting> both = testkit::sightings_of(0, 0, 5);
-  for (const Sighting& sighting : testkit::sightings_of(1, 6, 9)) both.push_back(sighting);
-  EXPECT_EQ(pending_[0].sightings, both);
+  std::vector<ObservationRef> both = testkit::observations_of(0, 0, 5);
+  for (const ObservationRef& observation : testkit::observations_of(1, 6, 9)) both.push_back(observation);
+  EXPECT_EQ(pending_[0].observations, both);
 }
 
 TEST_F(MergeDuplicates, what_looks_different_stays_two) {
@@ -74,7 +75,7 @@ TEST_F(MergeDuplicates, what_is_apart_stays_two) {
 }
 
 TEST_F(MergeDuplicates, uncertain_ones_that_one_point_does_not_fit_stay_two) {
-  // Their covariances reach across the two metres, their sightings do not.
+  // Their covariances reach across the two metres, their observations do not.
   SurveyLandmark here = landmark(0, 0, 5), there = landmark(4, 6, 11);
   here.cofactor = there.cofactor = 4 * Eigen::Matrix3d::Identity();
   EXPECT_EQ(merge({here, there}), 0);
@@ -84,7 +85,7 @@ TEST_F(MergeDuplicates, uncertain_ones_that_one_point_does_not_fit_stay_two) {
 TEST_F(MergeDuplicates, the_errors_of_poses_do_not_make_one_of_two) {
   // They move both alike.
   SurveyLandmark here = landmark(0, 0, 5), there = landmark(4, 0, 5);
-  there.sightings = testkit::sightings_of(0, 6, 11);
+  there.observations = testkit::observations_of(0, 6, 11);
   here.pose_covariance = there.pose_covariance = 4 * Eigen::Matrix3d::Identity();
   EXPECT_EQ(merge({here, there}), 0);
 }
@@ -101,8 +102,8 @@ TEST_F(MergeDuplicates, a_landmark_spans_fewer_frames_than_the_most) {
 TEST_F(MergeDuplicates, a_chain_becomes_one) {
   EXPECT_EQ(merge({landmark(0, 0, 4), landmark(1, 5, 8), landmark(2, 9, 12)}), 2);
   ASSERT_EQ(pending_.size(), 1U);
-  EXPECT_EQ(pending_[0].sightings.size(), 13U);
-  EXPECT_EQ(pending_[0].sightings.back(), (Sighting{{12}, 2}));
+  EXPECT_EQ(pending_[0].observations.size(), 13U);
+  EXPECT_EQ(pending_[0].observations.back(), (ObservationRef{{12}, 2}));
 }
 
 TEST_F(MergeDuplicates, what_would_break_a_limit_of_cleaning_stays_two) {

@@ -23,18 +23,19 @@ std::vector<CameraFromWorld> FrameBuffer::camera_poses() const {
   return poses;
 }
 
-const Observation& observation_of(const FrameBuffer& frames, const Sighting& sighting) {
-  return frames[sighting.keyframe].observed.observations[static_cast<std::size_t>(sighting.feature)];
+const Observation& observation_of(const FrameBuffer& frames, const ObservationRef& observation) {
+  return frames[observation.keyframe].observed.observations[static_cast<std::size_t>(observation.feature)];
 }
 
-const Keypoint& keypoint_of(const FrameBuffer& frames, const Sighting& sighting) {
-  return frames[sighting.keyframe].observed.features.keypoints[static_cast<std::size_t>(sighting.feature)];
+const Keypoint& keypoint_of(const FrameBuffer& frames, const ObservationRef& observation) {
+  return frames[observation.keyframe]
+      .observed.features.keypoints[static_cast<std::size_t>(observation.feature)];
 }
 
-Appearance appearance_of(const FrameBuffer& frames, const Sighting& sighting) {
-  const SurveyFrame& frame = frames[sighting.keyframe];
-  return {&frame.observed.features.descriptors, static_cast<std::size_t>(sighting.feature),
-          keypoint_of(frames, sighting), frame.odometry.translation};
+Appearance appearance_of(const FrameBuffer& frames, const ObservationRef& observation) {
+  const SurveyFrame& frame = frames[observation.keyframe];
+  return {&frame.observed.features.descriptors, static_cast<std::size_t>(observation.feature),
+          keypoint_of(frames, observation), frame.odometry.translation};
 }
 
 ObservedFrame select(const ObservedFrame& observed, std::span<const std::uint32_t> features) {

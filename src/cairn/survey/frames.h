@@ -60,10 +60,10 @@ class FrameBuffer {
 };
 
 /// Of a frame in the buffer.
-[[nodiscard]] const Observation& observation_of(const FrameBuffer& frames, const Sighting& sighting);
+[[nodiscard]] const Observation& observation_of(const FrameBuffer& frames, const ObservationRef& observation);
 
-[[nodiscard]] const Keypoint& keypoint_of(const FrameBuffer& frames, const Sighting& sighting);
-[[nodiscard]] Appearance appearance_of(const FrameBuffer& frames, const Sighting& sighting);
+[[nodiscard]] const Keypoint& keypoint_of(const FrameBuffer& frames, const ObservationRef& observation);
+[[nodiscard]] Appearance appearance_of(const FrameBuffer& frames, const ObservationRef& observation);
 
 /// The frame with these of its features, in this order.
 [[nodiscard]] ObservedFrame select(const ObservedFrame& observed, std::span<const std::uint32_t> features);

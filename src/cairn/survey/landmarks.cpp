@@ -12,26 +12,28 @@
 namespace cairn {
 namespace {
 
-std::vector<LandmarkSighting> with_positions(const FrameBuffer& frames, std::span<const Sighting> sightings) {
-  std::vector<LandmarkSighting> result;
-  for (const Sighting& sighting : sightings)
-    result.push_back(
-        {static_cast<std::int32_t>(frames.position(sighting.keyframe)), observation_of(frames, sighting)});
+std::vector<CameraObservation> with_positions(const FrameBuffer& frames,
+                                              std::span<const ObservationRef> observations) {
+  std::vector<CameraObservation> result;
+  for (const ObservationRef& observation : observations)
+    result.push_back({static_cast<std::int32_t>(frames.position(observation.keyframe)),
+                      observation_of(frames, observation)});
   return result;
 }
 
 SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
-                             std::span<const CameraFromWorld> cameras, std::span<const Sighting> sightings,
-                             const LandmarkFit& fit) {
+                             std::span<const CameraFromWorld> cameras,
+                             std::span<const ObservationRef> observations, const LandmarkFit& fit) {
   SurveyLandmark landmark;
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
-    if (fit.kept[i] != 0) landmark.sightings.push_back(sightings[i]);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (fit.kept[i] != 0) landmark.observations.push_back(observations[i]);
   }
   landmark.point_in_world = fit.point_in_world;
   landmark.cofactor = fit.covariance;
   landmark.squared_error_sum = fit.squared_error_sum;
   landmark.redundancy = fit.redundancy;
-  landmark.indicators = indicators_of(rig, fit.point_in_world, views_of(frames, cameras, landmark.sightings));
+  landmark.indicators =
+      indicators_of(rig, fit.point_in_world, views_of(frames, cameras, landmark.observations));
   return landmark;
 }
 
@@ -44,8 +46,8 @@ struct TrackGroup {
 std::vector<TrackGroup> group_by_middle(std::span<const Track> tracks, int min_observations) {
   std::map<KeyframeId, std::vector<std::size_t>> by_middle;
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (static_cast<int>(tracks[i].sightings.size()) >= min_observations)
-      by_middle[middle_of(tracks[i].sightings)].push_back(i);
+    if (static_cast<int>(tracks[i].observations.size()) >= min_observations)
+      by_middle[middle_of(tracks[i].observations)].push_back(i);
   }
   std::vector<TrackGroup> groups;
   for (auto& [middle, members] : by_middle) groups.push_back({middle, std::move(members)});
@@ -59,9 +61,9 @@ void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track>
   LandmarkSolver solver(rig, cameras, options.fit);
   LandmarkFit fit;
   for (const std::size_t i : group.tracks) {
-    solver.fit(with_positions(frames, tracks[i].sightings), fit);
+    solver.fit(with_positions(frames, tracks[i].observations), fit);
     if (fit.status == LandmarkFitStatus::ok)
-      fits[i] = make_landmark(rig, frames, cameras, tracks[i].sightings, fit);
+      fits[i] = make_landmark(rig, frames, cameras, tracks[i].observations, fit);
   }
 }
 
@@ -75,37 +77,37 @@ Eigen::Matrix3d covariance_at(const PoseUncertainty& pose, const Eigen::Vector3d
 
 Eigen::Matrix3d pose_covariance_of(const FrameBuffer& frames, const SurveyLandmark& landmark) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Sighting& sighting : landmark.sightings) {
-    const GivenPose& given = frames[sighting.keyframe].given;
+  for (const ObservationRef& observation : landmark.observations) {
+    const GivenPose& given = frames[observation.keyframe].given;
     if (!given.uncertainty) continue;
     const Eigen::Vector3d lever = landmark.point_in_world - given.world_from_camera.translation;
     sum += covariance_at(*given.uncertainty, lever);
   }
-  return sum / static_cast<double>(landmark.sightings.size());
+  return sum / static_cast<double>(landmark.observations.size());
 }
 
 }  // namespace
 
-std::vector<LandmarkView> views_of(const FrameBuffer& frames, std::span<const CameraFromWorld> cameras,
-                                   std::span<const Sighting> sightings) {
-  std::vector<LandmarkView> views;
-  for (const Sighting& sighting : sightings)
+std::vector<PosedObservation> views_of(const FrameBuffer& frames, std::span<const CameraFromWorld> cameras,
+                                       std::span<const ObservationRef> observations) {
+  std::vector<PosedObservation> views;
+  for (const ObservationRef& observation : observations)
     views.push_back(
-        {cameras[frames.position(sighting.keyframe)], as_stored(observation_of(frames, sighting))});
+        {cameras[frames.position(observation.keyframe)], as_stored(observation_of(frames, observation))});
   return views;
 }
 
-KeyframeId middle_of(std::span<const Sighting> sightings) {
-  return sightings[sightings.size() / 2].keyframe;
+KeyframeId middle_of(std::span<const ObservationRef> observations) {
+  return observations[observations.size() / 2].keyframe;
 }
 
-std::optional<SurveyLandmark> fit_sightings(const Rig& rig, const FrameBuffer& frames,
-                                            std::span<const Sighting> sightings,
-                                            const SurveyOptions& options) {
-  const auto cameras = cameras_around(frames, middle_of(sightings), options.tracks.smooth_frames);
-  const LandmarkFit fit = fit_landmark(rig, cameras, with_positions(frames, sightings), options.fit);
+std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,
+                                               std::span<const ObservationRef> observations,
+                                               const SurveyOptions& options) {
+  const auto cameras = cameras_around(frames, middle_of(observations), options.tracks.smooth_frames);
+  const LandmarkFit fit = fit_landmark(rig, cameras, with_positions(frames, observations), options.fit);
   if (fit.status != LandmarkFitStatus::ok) return std::nullopt;
-  return make_landmark(rig, frames, cameras, sightings, fit);
+  return make_landmark(rig, frames, cameras, observations, fit);
 }
 
 AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
@@ -116,13 +118,13 @@ AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::spa
   executor.for_each(groups.size(),
                     [&](std::size_t g) { fit_group(rig, frames, tracks, groups[g], options, fits); });
   for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (static_cast<int>(tracks[i].sightings.size()) < options.fit.min_observations) {
+    if (static_cast<int>(tracks[i].observations.size()) < options.fit.min_observations) {
       ++adjusted.too_short;
     } else if (!fits[i]) {
-      ++adjusted.contradictory;
+      ++adjusted.inconsistent;
     } else {
-      adjusted.dropped_sightings +=
-          static_cast<std::int64_t>(tracks[i].sightings.size() - fits[i]->sightings.size());
+      adjusted.dropped_observations +=
+          static_cast<std::int64_t>(tracks[i].observations.size() - fits[i]->observations.size());
       adjusted.landmarks.push_back(std::move(*fits[i]));
     }
   }

@@ -13,11 +13,11 @@ namespace cairn {
 
 /// A landmark that was adjusted.
 struct SurveyLandmark {
-  std::vector<Sighting> sightings;  ///< those that agree with the point, by frame
+  std::vector<ObservationRef> observations;  ///< those that agree with the point, by frame
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
-  /// Of the point, square metres, for sightings as noisy as their sigmas say and exact poses.
+  /// Of the point, square metres, for observations as noisy as their sigmas say and exact poses.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
-  double squared_error_sum = 0;  ///< of the sightings, in units of their standard deviations
+  double squared_error_sum = 0;  ///< of the observations, in units of their standard deviations
   int redundancy = 0;            ///< numbers measured, without the three of the point
   double variance_factor = 1;    ///< a posteriori, see VarianceModel
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< what the poses' errors add, square metres
@@ -33,28 +33,28 @@ struct SurveyLandmark {
 struct AdjustedTracks {
   std::vector<SurveyLandmark> landmarks;  ///< in the tracks' order
   std::int64_t too_short = 0;             ///< tracks of fewer frames than a landmark needs
-  std::int64_t contradictory = 0;         ///< too few observations agree with one point
-  std::int64_t dropped_sightings = 0;     ///< of landmarks: those that disagree
+  std::int64_t inconsistent = 0;          ///< too few observations agree with one point
+  std::int64_t dropped_observations = 0;  ///< of landmarks: those that disagree
 };
 
 /// The frame in whose surroundings a landmark's cameras are taken, see cameras_around.
-[[nodiscard]] KeyframeId middle_of(std::span<const Sighting> sightings);
+[[nodiscard]] KeyframeId middle_of(std::span<const ObservationRef> observations);
 
-/// Fits a point to what the sightings show, whose frames are in the buffer, see LandmarkSolver; nothing where
-/// too few agree.
-[[nodiscard]] std::optional<SurveyLandmark> fit_sightings(const Rig& rig, const FrameBuffer& frames,
-                                                          std::span<const Sighting> sightings,
-                                                          const SurveyOptions& options);
+/// Fits a point to what the observations show, whose frames are in the buffer, see LandmarkSolver; nothing
+/// where too few agree.
+[[nodiscard]] std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,
+                                                             std::span<const ObservationRef> observations,
+                                                             const SurveyOptions& options);
 
 /// The same for each of the tracks. The same bits at any number of threads.
 [[nodiscard]] AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames,
                                            std::span<const Track> tracks, const SurveyOptions& options,
                                            const Executor& executor);
 
-/// The sightings with their cameras.
-[[nodiscard]] std::vector<LandmarkView> views_of(const FrameBuffer& frames,
-                                                 std::span<const CameraFromWorld> cameras,
-                                                 std::span<const Sighting> sightings);
+/// The observations with their cameras.
+[[nodiscard]] std::vector<PosedObservation> views_of(const FrameBuffer& frames,
+                                                     std::span<const CameraFromWorld> cameras,
+                                                     std::span<const ObservationRef> observations);
 
 /// Sets what its covariance is made of beside the cofactor. What the errors of the given poses add is zero
 /// where none are given. GNSS/INS errors change slowly, so that the poses of one landmark err alike: the mean

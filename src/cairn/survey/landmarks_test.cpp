@@ -19,7 +19,7 @@ using testkit::kDriveRig;
 TEST(AdjustTracks, says_what_became_of_each) {
   const auto points = testkit::roadside_points(6);
   FrameBuffer frames = testkit::drive(points, 8, 0.2);
-  frames[KeyframeId{3}].observed.observations[2].u += 40;  // one sighting of a good track
+  frames[KeyframeId{3}].observed.observations[2].u += 40;  // one observation of a good track
   for (int i = 0; i < 8; ++i) {                            // a track that jumps to and fro
     Observation& seen = frames[KeyframeId{i}].observed.observations[4];
     seen.u += i % 2 == 0 ? 30.0 * i : -45.0 * i;
@@ -29,15 +29,15 @@ TEST(AdjustTracks, says_what_became_of_each) {
   for (std::int32_t i = 0; i < 6; ++i) tracks.push_back(testkit::track_of(frames, i, 0, i == 1 ? 1 : 7));
   const AdjustedTracks adjusted = adjust_tracks(kDriveRig, frames, tracks, {}, Executor());
   EXPECT_EQ(adjusted.too_short, 1);
-  EXPECT_EQ(adjusted.contradictory, 1);
-  EXPECT_EQ(adjusted.dropped_sightings, 1);
+  EXPECT_EQ(adjusted.inconsistent, 1);
+  EXPECT_EQ(adjusted.dropped_observations, 1);
   ASSERT_EQ(adjusted.landmarks.size(), 4U);
   for (const auto& [landmark, point] : {std::pair{0, 0}, {1, 2}, {2, 3}, {3, 5}}) {
     const SurveyLandmark& found = adjusted.landmarks[static_cast<std::size_t>(landmark)];
-    EXPECT_EQ(found.sightings.front().feature, point);
-    EXPECT_EQ(found.sightings.size(), point == 2 ? 7U : 8U);
-    EXPECT_EQ(found.indicators.frames, static_cast<int>(found.sightings.size()));
-    EXPECT_EQ(found.redundancy, 3 * static_cast<int>(found.sightings.size()) - 3);
+    EXPECT_EQ(found.observations.front().feature, point);
+    EXPECT_EQ(found.observations.size(), point == 2 ? 7U : 8U);
+    EXPECT_EQ(found.indicators.frames, static_cast<int>(found.observations.size()));
+    EXPECT_EQ(found.redundancy, 3 * static_cast<int>(found.observations.size()) - 3);
     EXPECT_LT(found.squared_error_sum, 30);
     const Eigen::Vector3d error = found.point_in_world - points[static_cast<std::size_t>(point)].position;
     EXPECT_LT(error.dot(found.cofactor.inverse() * error), 9);
@@ -59,20 +59,20 @@ TEST(AdjustTracks, is_the_same_at_any_number_of_threads) {
     for (std::size_t i = 0; i < one.size(); ++i) {
       EXPECT_EQ(many[i].point_in_world, one[i].point_in_world);
       EXPECT_EQ(many[i].cofactor, one[i].cofactor);
-      EXPECT_EQ(many[i].sightings, one[i].sightings);
+      EXPECT_EQ(many[i].observations, one[i].observations);
     }
   }
 }
 
-TEST(FitSightings, is_what_adjust_tracks_makes_of_them) {
+TEST(FitObservations, is_what_adjust_tracks_makes_of_them) {
   const FrameBuffer frames = testkit::drive(testkit::roadside_points(1), 9, 0.5);
   const std::vector<Track> tracks{testkit::track_of(frames, 0, 1, 8)};
   const AdjustedTracks adjusted = adjust_tracks(kDriveRig, frames, tracks, {}, Executor());
-  const auto fitted = fit_sightings(kDriveRig, frames, tracks[0].sightings, {});
+  const auto fitted = fit_observations(kDriveRig, frames, tracks[0].observations, {});
   ASSERT_TRUE(fitted.has_value());
   ASSERT_EQ(adjusted.landmarks.size(), 1U);
   EXPECT_EQ(fitted->point_in_world, adjusted.landmarks[0].point_in_world);
-  EXPECT_FALSE(fit_sightings(kDriveRig, frames, testkit::sightings_of(0, 0, 1), {}).has_value());
+  EXPECT_FALSE(fit_observations(kDriveRig, frames, testkit::observations_of(0, 0, 1), {}).has_value());
 }
 
 /// Positive definite, none of its entries zero: of (c, w), metres and radians.
@@ -92,7 +92,7 @@ PoseUncertainty uncertainty_of(const Matrix6d& joint) {
 class PoseErrors : public testing::Test {
  protected:
   PoseErrors() {
-    landmark_.sightings = testkit::sightings_of(0, 0, 5);
+    landmark_.observations = testkit::observations_of(0, 0, 5);
     landmark_.point_in_world = points_[0].position;
     landmark_.redundancy = 15;
     landmark_.squared_error_sum = 20;

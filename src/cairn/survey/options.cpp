@@ -57,8 +57,8 @@ void visit_adjustment(SurveyOptions& survey, ParameterVisitor& visitor) {
 }
 
 /// Visits the four limits of one quantity; `name` is that of its parameters without the last word.
-void visit_limits(SpreadLimits& limits, const std::string& name, const char* unit,
-                  const std::string& quantity, ParameterVisitor& visitor) {
+void visit_limits(ValueLimits& limits, const std::string& name, const char* unit, const std::string& quantity,
+                  ParameterVisitor& visitor) {
   const auto visit_limit = [&](const char* which, const std::string& meaning, std::optional<double>& limit) {
     visitor.parameter({(name + which).c_str(), from(0, unit), meaning.c_str()}, limit);
   };

@@ -36,7 +36,7 @@ struct CovarianceOptions {
 };
 
 /// Bounds for the four figures that the observations of a landmark have of one thing; unset: none.
-struct SpreadLimits {
+struct ValueLimits {
   std::optional<double> min;       ///< no observation below
   std::optional<double> max;       ///< none above
   std::optional<double> max_mean;  ///< of the mean
@@ -53,14 +53,14 @@ struct CleaningOptions {
   double max_rms_px = 1.5;  ///< three times what good features have: something moved, or two things were one
   double min_ray_angle_deg =
       0.2;  ///< largest angle between two rays: below, the depth rests on the disparity alone
-  SpreadLimits depth{.min = 0.3, .max = 100, .max_mean = {}, .max_std = {}};    ///< metres
-  SpreadLimits distance{.min = {}, .max = 120, .max_mean = {}, .max_std = {}};  ///< metres
-  SpreadLimits lateral{
+  ValueLimits depth{.min = 0.3, .max = 100, .max_mean = {}, .max_std = {}};    ///< metres
+  ValueLimits distance{.min = {}, .max = 120, .max_mean = {}, .max_std = {}};  ///< metres
+  ValueLimits lateral{
       .min = {}, .max = 60, .max_mean = {}, .max_std = {}};  ///< metres, from the optical axis
-  SpreadLimits angle_deg{.min = {},
-                         .max = 60,
-                         .max_mean = {},
-                         .max_std = {}};  ///< between ray and optical axis: beyond, lenses are badly known
+  ValueLimits angle_deg{.min = {},
+                        .max = 60,
+                        .max_mean = {},
+                        .max_std = {}};  ///< between ray and optical axis: beyond, lenses are badly known
   /// Two landmarks are one where their difference is at most so many standard deviations (chi-square with 3
   /// degrees of freedom, 95 %), they look the same, and one point fits all observations.
   double duplicate_sigmas = 2.8;

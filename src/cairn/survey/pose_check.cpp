@@ -14,7 +14,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/median.h"
 #include "cairn/features/matching.h"
-#include "cairn/frontend/frontend.h"
+#include "cairn/frontend/frame_observer.h"
 #include "cairn/geometry/pnp_ransac.h"
 #include "cairn/survey/pose_readings.h"
 
@@ -76,19 +76,19 @@ std::optional<SeenMotion> motion_between(const Rig& rig, const ObservedFrame& fi
 class MotionProbe {
  public:
   MotionProbe(const Sequence& sequence, const GivenPoses& poses, const ObserverOptions& options)
-      : rig_(rig_of(sequence.calibration, options.depth_noise)), frontend_(sequence, options) {
+      : rig_(rig_of(sequence.calibration, options.depth_noise)), observer_(sequence, options) {
     for (std::size_t i = 0; i < poses.frames.size(); ++i)
       if (poses.frames[i]) posed_.push_back(i);
   }
 
   /// Nothing where the images show no motion that is of use.
   [[nodiscard]] std::optional<SeenMotion> from(std::size_t position) const {
-    const Arrival first = frontend_(posed_[position]);
+    const LoadedFrame first = observer_.load(posed_[position]);
     if (first.failure) return std::nullopt;
     std::optional<SeenMotion> best;
     for (const std::size_t step : {1U, 3U, 9U}) {
       if (position + step >= posed_.size()) break;
-      const Arrival second = frontend_(posed_[position + step]);
+      const LoadedFrame second = observer_.load(posed_[position + step]);
       auto motion = second.failure ? std::nullopt : motion_between(rig_, first.observed, second.observed);
       if (!motion) break;
       motion->first = posed_[position];
@@ -114,7 +114,7 @@ class MotionProbe {
 
  private:
   Rig rig_;
-  Frontend frontend_;
+  FrameObserver observer_;
   std::vector<std::size_t> posed_;
 };
 

@@ -58,7 +58,7 @@ class SurveyPipeline {
         progress_(progress),
         identity_(identity_of(input)),
         rig_(rig_of(input.sequence.calibration, options.observer.depth_noise)),
-        frontend_(input.sequence, options.observer) {}
+        observer_(input.sequence, options.observer) {}
 
   [[nodiscard]] SurveyResult run() {
     try {
@@ -130,13 +130,13 @@ class SurveyPipeline {
   void observe_again(std::vector<SurveyFrame>& frames) const {
     executor_.for_each(frames.size(), [&](std::size_t i) {
       const auto index = frames[i].observed.frame.index();
-      Arrival arrival = frontend_(index);
-      if (arrival.failure) std::rethrow_exception(arrival.failure);
-      if (!frames[i].kept.empty() && frames[i].kept.back() >= arrival.observed.observations.size())
+      LoadedFrame loaded = observer_.load(index);
+      if (loaded.failure) std::rethrow_exception(loaded.failure);
+      if (!frames[i].kept.empty() && frames[i].kept.back() >= loaded.observed.observations.size())
         throw InputError({input_.sequence.frames[index].color.string(), 0, "the image of the earlier run",
                           "another one", "Begin anew."});
-      scale_sigmas(options_.covariance.sigma_px, arrival.observed);
-      frames[i].observed = select(arrival.observed, frames[i].kept);
+      scale_sigmas(options_.covariance.sigma_px, loaded.observed);
+      frames[i].observed = select(loaded.observed, frames[i].kept);
       frames[i].given = *input_.poses.frames[index];
     });
   }
@@ -151,17 +151,17 @@ class SurveyPipeline {
     state.counts.without_pose = static_cast<std::int64_t>(input_.poses.without_pose);
     FrameStream stream{"mapping"};
     stream.resumes_readable = state.counts.frames > 0;
-    stream.process = [this](std::size_t index, Arrival&& arrival) { process(index, arrival); };
-    result_.stopped = observe_frames(input_.sequence, frontend_, todo, stream, executor_, progress_).stopped;
+    stream.process = [this](std::size_t index, LoadedFrame&& loaded) { process(index, loaded); };
+    result_.stopped = observe_frames(input_.sequence, observer_, todo, stream, executor_, progress_).stopped;
     if (result_.stopped) keep();
   }
 
-  void process(std::size_t index, const Arrival& arrival) {
-    result_.times.decode += arrival.decode_seconds;
-    result_.times.features += arrival.feature_seconds;
+  void process(std::size_t index, const LoadedFrame& loaded) {
+    result_.times.decode += loaded.decode_seconds;
+    result_.times.features += loaded.feature_seconds;
     SurveyState& state = surveyor_->state();
-    arrival.failure ? void(++state.counts.unreadable)
-                    : surveyor_->add(arrival.observed, *input_.poses.frames[index], executor_);
+    loaded.failure ? void(++state.counts.unreadable)
+                   : surveyor_->add(loaded.observed, *input_.poses.frames[index], executor_);
     state.next_in_sequence = index + 1;
     if (progress_.stop_requested() || since_checkpoint_.seconds() > kCheckpointSeconds) keep();
   }
@@ -207,7 +207,7 @@ class SurveyPipeline {
   Progress& progress_;
   std::uint32_t identity_;
   Rig rig_;
-  Frontend frontend_;
+  FrameObserver observer_;
   std::unique_ptr<MapWriter> writer_;
   std::unique_ptr<Surveyor> surveyor_;
   Stopwatch since_checkpoint_;

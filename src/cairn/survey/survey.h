@@ -19,21 +19,21 @@ namespace cairn {
 
 /// What became of frames, features and landmarks.
 struct SurveyCounts {
-  std::int64_t frames = 0;              ///< in the map
-  std::int64_t without_pose = 0;        ///< left out: no given pose near in time
-  std::int64_t standing = 0;            ///< left out: the view did not change
-  std::int64_t unreadable = 0;          ///< left out: could not be decoded
-  std::int64_t features = 0;            ///< found, in the left images of frames in the map
-  std::int64_t measured = 0;            ///< of these with a disparity or depth
-  std::int64_t matched = 0;             ///< of these, to a track of the window
-  std::int64_t tracks = 0;              ///< that were finished
-  std::int64_t too_short = 0;           ///< of these, in too few frames
-  std::int64_t contradictory = 0;       ///< tracks whose observations do not agree with one point
-  std::int64_t dropped_sightings = 0;   ///< of landmarks: did not agree with the others
-  CleaningCounts cleaned = {};          ///< landmarks that fell to each rule
-  std::int64_t merged = 0;              ///< landmarks that were another one's
-  std::int64_t landmarks = 0;           ///< in the map
-  std::int64_t sightings = 0;           ///< of these
+  std::int64_t frames = 0;                ///< in the map
+  std::int64_t without_pose = 0;          ///< left out: no given pose near in time
+  std::int64_t stationary = 0;            ///< left out: the view did not change
+  std::int64_t unreadable = 0;            ///< left out: could not be decoded
+  std::int64_t features = 0;              ///< found, in the left images of frames in the map
+  std::int64_t measured = 0;              ///< of these with a disparity or depth
+  std::int64_t matched = 0;               ///< of these, to a track of the window
+  std::int64_t tracks = 0;                ///< that were finished
+  std::int64_t too_short = 0;             ///< of these, in too few frames
+  std::int64_t inconsistent = 0;          ///< tracks whose observations do not agree with one point
+  std::int64_t dropped_observations = 0;  ///< of landmarks: did not agree with the others
+  CleaningCounts cleaned = {};            ///< landmarks that fell to each rule
+  std::int64_t merged = 0;                ///< landmarks that were another one's
+  std::int64_t landmarks = 0;             ///< in the map
+  std::int64_t observations = 0;          ///< of these
   std::int64_t dominated_by_poses = 0;  ///< of these: the poses' stated deviations add more than images leave
   /// Sums over the landmarks in the map of the variance along the worst direction, square metres.
   double image_variance_m2 = 0, pose_variance_m2 = 0;

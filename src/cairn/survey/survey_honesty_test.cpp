@@ -116,7 +116,7 @@ void spoil(double share, const ObservedFrame& observed, Random& random, std::vec
 
 /// The place on the surface that a landmark shows.
 struct Truth {
-  SurfacePoint middle;  ///< each coordinate the middle of what its sightings show
+  SurfacePoint middle;  ///< each coordinate the middle of what its observations show
   double spread_m = 0;  ///< of these: a feature's centre wanders on the surface with the view
 };
 
@@ -127,17 +127,17 @@ class StreetMapper {
 
   std::vector<SurveyLandmark> map() {
     for (std::size_t i = 0; i < street().size(); ++i) add(i);
-    resolve({kFrames + options_.tracks.window});
+    adjust_finished_tracks({kFrames + options_.tracks.window});
     return std::move(landmarks_);
   }
 
-  /// What the kept sightings of a landmark show; nothing where one is at an edge.
+  /// What the kept observations of a landmark show; nothing where one is at an edge.
   [[nodiscard]] std::optional<Truth> truth_of(const SurveyLandmark& landmark) const {
     std::array<std::vector<double>, 3> coordinates;
     std::vector<SurfacePoint> points;
-    for (const Sighting& sighting : landmark.sightings) {
-      const auto feature = frames_[sighting.keyframe].kept[static_cast<std::size_t>(sighting.feature)];
-      const auto& shown = street()[sighting.keyframe.index()].shown[feature];
+    for (const ObservationRef& observation : landmark.observations) {
+      const auto feature = frames_[observation.keyframe].kept[static_cast<std::size_t>(observation.feature)];
+      const auto& shown = street()[observation.keyframe.index()].shown[feature];
       if (!shown) return std::nullopt;
       points.push_back(*shown);
       for (int k = 0; k < 3; ++k)
@@ -163,16 +163,16 @@ class StreetMapper {
     auto matches = match_to_tracks(rig_, frames_, tracks_, frame, options_.tracks, executor_);
     Random random(11, i);
     spoil(wrong_share_, frame.observed, random, matches);
-    keep_useful(frame, matches);
+    drop_unused_features(frame, matches);
     extend_tracks(frame, matches, tracks_);
     const KeyframeId newest = frame.id;
     frames_.push_back(std::move(frame));
-    resolve(newest);
+    adjust_finished_tracks(newest);
   }
 
-  void resolve(KeyframeId newest) {
+  void adjust_finished_tracks(KeyframeId newest) {
     auto adjusted =
-        adjust_tracks(rig_, frames_, take_finished(newest, options_.tracks, tracks_), options_, executor_);
+        adjust_tracks(rig_, frames_, extract_finished(newest, options_.tracks, tracks_), options_, executor_);
     for (const SurveyLandmark& landmark : adjusted.landmarks)
       variance_.add(landmark.squared_error_sum, landmark.redundancy);
     for (SurveyLandmark& landmark : adjusted.landmarks) {

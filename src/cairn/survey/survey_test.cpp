@@ -56,8 +56,8 @@ TEST_F(SurveyTest, landmarks_lie_on_what_was_seen) {
   for (int i = 0; i < kStreetFrames; ++i) truth.push_back(street.render(i).depth_true);
   std::size_t on_surface = 0;
   for (const Landmark& landmark : map.landmarks()) {
-    const auto frame = landmark.sightings.front().keyframe.index();
-    const Rigid3 camera_from_world = map.world_from_camera(landmark.sightings.front().keyframe).inverse();
+    const auto frame = landmark.observations.front().keyframe.index();
+    const Rigid3 camera_from_world = map.world_from_camera(landmark.observations.front().keyframe).inverse();
     const Eigen::Vector3d point = camera_from_world * landmark.point_in_world;
     const Eigen::Matrix3d& covariance = covariances[landmark.id.index()];
     const Eigen::Vector3d axis = camera_from_world.rotation.conjugate() * Eigen::Vector3d::UnitZ();
@@ -73,20 +73,21 @@ TEST_F(SurveyTest, the_map_holds_together) {
   const SurveyResult result = survey("map");
   const SurveyCounts& counts = result.counts;
   const Map map = read_map(folder("map"));
-  std::int64_t sightings = 0;
+  std::int64_t observations = 0;
   for (const Landmark& landmark : map.landmarks()) {
-    sightings += static_cast<std::int64_t>(landmark.sightings.size());
-    EXPECT_GE(landmark.sightings.size(), 3U);
-    EXPECT_LT(landmark.sightings.back().keyframe.value - landmark.sightings.front().keyframe.value, 20);
-    for (const Sighting& sighting : landmark.sightings)
-      EXPECT_EQ(map[sighting.keyframe].landmarks[static_cast<std::size_t>(sighting.feature)], landmark.id);
+    observations += static_cast<std::int64_t>(landmark.observations.size());
+    EXPECT_GE(landmark.observations.size(), 3U);
+    EXPECT_LT(landmark.observations.back().keyframe.value - landmark.observations.front().keyframe.value, 20);
+    for (const ObservationRef& observation : landmark.observations)
+      EXPECT_EQ(map[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)],
+                landmark.id);
   }
-  EXPECT_EQ(sightings, counts.sightings);
+  EXPECT_EQ(observations, counts.observations);
   const std::int64_t cleaned = std::accumulate(counts.cleaned.begin(), counts.cleaned.end(), std::int64_t{0});
   EXPECT_EQ(counts.tracks,
-            counts.too_short + counts.contradictory + cleaned + counts.merged + counts.landmarks);
+            counts.too_short + counts.inconsistent + cleaned + counts.merged + counts.landmarks);
   EXPECT_GE(counts.features, counts.measured);
-  EXPECT_GT(counts.matched, counts.sightings / 2);
+  EXPECT_GT(counts.matched, counts.observations / 2);
   for (int i = 0; i < kStreetFrames; ++i) {  // exact poses: smoothing hardly moves them
     const Rigid3& given = poses_.frames[static_cast<std::size_t>(i)]->world_from_camera;
     EXPECT_LT((map.world_from_camera(KeyframeId{i}).translation - given.translation).norm(), 0.03);
@@ -187,7 +188,7 @@ TEST_F(SurveyTest, a_camera_that_stands_adds_nothing) {
   stand_at(10);
   stand_at(10);
   const SurveyResult result = survey("map");
-  EXPECT_EQ(result.counts.standing, 2);
+  EXPECT_EQ(result.counts.stationary, 2);
   EXPECT_EQ(result.counts.frames, kStreetFrames);
   const Map map = read_map(folder("map"));
   EXPECT_EQ(map.keyframes()[10].observed.frame, FrameId{10});

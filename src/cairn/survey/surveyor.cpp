@@ -26,11 +26,11 @@ SurveyFrame make_frame(KeyframeId id, const ObservedFrame& observed, const Given
 
 /// What is stored of a landmark.
 FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark) {
-  FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.sightings, {}, {},
+  FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.observations, {}, {},
                           landmark.indicators};
   std::vector<Appearance> appearances;
-  for (const Sighting& sighting : landmark.sightings) {
-    appearances.push_back(appearance_of(frames, sighting));
+  for (const ObservationRef& observation : landmark.observations) {
+    appearances.push_back(appearance_of(frames, observation));
     result.keypoints.push_back(appearances.back().keypoint);
   }
   result.descriptors = gather(appearances);
@@ -56,14 +56,14 @@ Surveyor::Surveyor(const Rig& rig, const SurveyOptions& options, SurveyState&& s
     : rig_(rig), options_(options), state_(std::move(state)), writer_(writer) {}
 
 void Surveyor::add(const ObservedFrame& observed, const GivenPose& given, const Executor& executor) {
-  if (stands(observed, given)) {
-    ++state_.counts.standing;
+  if (is_stationary(observed, given)) {
+    ++state_.counts.stationary;
     return;
   }
   Stopwatch watch;
   SurveyFrame frame = make_frame(state_.next_frame, observed, given, options_.covariance.sigma_px);
   auto matches = find_tracks(frame, executor);
-  keep_useful(frame, matches);
+  drop_unused_features(frame, matches);
   frame.landmarks.resize(frame.observed.observations.size());
   extend_tracks(frame, matches, state_.tracks);
   const KeyframeId id = frame.id;
@@ -75,7 +75,7 @@ void Surveyor::add(const ObservedFrame& observed, const GivenPose& given, const 
   state_.counts.matched += static_cast<std::int64_t>(matches.size());
   times_.matching += watch.lap();
   smooth_behind(id);
-  resolve(take_finished(id, options_.tracks, state_.tracks), executor);
+  adjust_finished_tracks(extract_finished(id, options_.tracks, state_.tracks), executor);
   // What a landmark may be merged with has left the window at most one window later.
   write_landmarks({id.value - 2 * options_.tracks.window});
   write_frames(std::min(first_open_frame(), {id.value - options_.tracks.window}));
@@ -85,7 +85,7 @@ void Surveyor::finish(const Executor& executor) {
   const int reach = std::min(options_.tracks.smooth_frames, state_.next_frame.value);
   for (int k = reach; k > 0; --k) smooth({state_.next_frame.value - k});
   const KeyframeId after_all{state_.next_frame.value + options_.tracks.window};
-  resolve(take_finished(after_all, options_.tracks, state_.tracks), executor);
+  adjust_finished_tracks(extract_finished(after_all, options_.tracks, state_.tracks), executor);
   write_landmarks(state_.next_frame);
   write_frames(state_.next_frame);
 }
@@ -107,7 +107,7 @@ std::vector<TrackMatch> Surveyor::find_tracks(SurveyFrame& frame, const Executor
   return match();
 }
 
-bool Surveyor::stands(const ObservedFrame& observed, const GivenPose& given) const {
+bool Surveyor::is_stationary(const ObservedFrame& observed, const GivenPose& given) const {
   if (state_.frames.empty()) return false;
   const Rigid3 moved = state_.frames.back().camera_from_world * given.world_from_camera;
   const double depth = median_depth(observed);
@@ -115,14 +115,14 @@ bool Surveyor::stands(const ObservedFrame& observed, const GivenPose& given) con
   return rotation_angle(moved.rotation) + (depth > 0 ? way / depth : way) < options_.tracks.min_view_change;
 }
 
-void Surveyor::resolve(const std::vector<Track>& finished, const Executor& executor) {
+void Surveyor::adjust_finished_tracks(const std::vector<Track>& finished, const Executor& executor) {
   Stopwatch watch;
   AdjustedTracks adjusted = adjust_tracks(rig_, state_.frames, finished, options_, executor);
   SurveyCounts& counts = state_.counts;
   counts.tracks += static_cast<std::int64_t>(finished.size());
   counts.too_short += adjusted.too_short;
-  counts.contradictory += adjusted.contradictory;
-  counts.dropped_sightings += adjusted.dropped_sightings;
+  counts.inconsistent += adjusted.inconsistent;
+  counts.dropped_observations += adjusted.dropped_observations;
   for (const SurveyLandmark& landmark : adjusted.landmarks)
     state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
   std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
@@ -163,22 +163,22 @@ void Surveyor::smooth(KeyframeId id) {
   state_.counts.turned_squared_rad += angle * angle;
 }
 
-/// Those whose last sighting is in a frame before.
+/// Those whose last observation is in a frame before.
 void Surveyor::write_landmarks(KeyframeId seen_before) {
   Stopwatch watch;
   std::vector<SurveyLandmark> later;
   for (SurveyLandmark& landmark : state_.pending) {
-    if (landmark.sightings.back().keyframe >= seen_before) {
+    if (landmark.observations.back().keyframe >= seen_before) {
       later.push_back(std::move(landmark));
       continue;
     }
-    for (const Sighting& sighting : landmark.sightings)
-      state_.frames[sighting.keyframe].landmarks[static_cast<std::size_t>(sighting.feature)] =
+    for (const ObservationRef& observation : landmark.observations)
+      state_.frames[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)] =
           state_.next_landmark;
     writer_.add_landmark(finished(state_.frames, landmark));
     ++state_.next_landmark.value;
     ++state_.counts.landmarks;
-    state_.counts.sightings += static_cast<std::int64_t>(landmark.sightings.size());
+    state_.counts.observations += static_cast<std::int64_t>(landmark.observations.size());
     count_uncertainty(landmark, state_.counts);
   }
   state_.pending = std::move(later);
@@ -197,9 +197,9 @@ void Surveyor::write_frames(KeyframeId before) {
 /// The first frame that a track or a landmark which was not written has seen.
 KeyframeId Surveyor::first_open_frame() const {
   KeyframeId first = state_.next_frame;
-  for (const Track& track : state_.tracks) first = std::min(first, track.sightings.front().keyframe);
+  for (const Track& track : state_.tracks) first = std::min(first, track.observations.front().keyframe);
   for (const SurveyLandmark& landmark : state_.pending)
-    first = std::min(first, landmark.sightings.front().keyframe);
+    first = std::min(first, landmark.observations.front().keyframe);
   return first;
 }
 

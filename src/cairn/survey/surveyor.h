@@ -20,11 +20,11 @@ class Surveyor {
   [[nodiscard]] const SurveyTimes& times() const { return times_; }
 
  private:
-  [[nodiscard]] bool stands(const ObservedFrame& observed, const GivenPose& given) const;
+  [[nodiscard]] bool is_stationary(const ObservedFrame& observed, const GivenPose& given) const;
   [[nodiscard]] std::vector<TrackMatch> find_tracks(SurveyFrame& frame, const Executor& executor) const;
   void smooth_behind(KeyframeId newest);
   void smooth(KeyframeId id);
-  void resolve(const std::vector<Track>& finished, const Executor& executor);
+  void adjust_finished_tracks(const std::vector<Track>& finished, const Executor& executor);
   [[nodiscard]] std::vector<SurveyLandmark> clean(std::vector<SurveyLandmark>&& landmarks);
   void write_landmarks(KeyframeId seen_before);
   void write_frames(KeyframeId before);

@@ -26,19 +26,19 @@ double depth_uncertainty_px(const Rig& rig, const FrameBuffer& frames, const Tra
   return (rig.project(there) - rig.project(moved)).head<2>().norm();
 }
 
-/// Takes no sightings in `frame` any more.
+/// Takes no observations in `frame` any more.
 bool is_full(const Track& track, KeyframeId frame, const TrackOptions& options) {
-  return frame.value - track.sightings.front().keyframe.value + 1 >= options.max_frames;
+  return frame.value - track.observations.front().keyframe.value + 1 >= options.max_frames;
 }
 
 /// Whether a feature of the frame can show what the track showed last, as the two poses have it.
 bool agrees(const Rig& rig, const FrameBuffer& frames, const Track& track, const SurveyFrame& frame,
             std::size_t feature, double epipolar_px) {
-  const Observation& then = observation_of(frames, track.sightings.back());
+  const Observation& then = observation_of(frames, track.observations.back());
   const Observation& now = frame.observed.observations[feature];
-  const Rigid3 now_from_then = frame.odometry.inverse() * frames[track.sightings.back().keyframe].odometry;
+  const Rigid3 now_from_then = frame.odometry.inverse() * frames[track.observations.back().keyframe].odometry;
   const double scale =
-      std::max({1.0, static_cast<double>(keypoint_of(frames, track.sightings.back()).sigma_px),
+      std::max({1.0, static_cast<double>(keypoint_of(frames, track.observations.back()).sigma_px),
                 static_cast<double>(frame.observed.features.keypoints[feature].sigma_px)});
   const double off_line = epipolar_distance(rig, now_from_then, {then.u, then.v}, {now.u, now.v});
   if (off_line > epipolar_px * scale) return false;
@@ -62,7 +62,7 @@ std::vector<TrackMatch> match_to_tracks(const Rig& rig, const FrameBuffer& frame
     if (is_full(tracks[i], frame.id, options)) continue;
     const double uncertainty_px = depth_uncertainty_px(rig, frames, tracks[i], frame);
     if (uncertainty_px <= kMaxUncertaintyPx)
-      search.add(i, tracks[i].point_in_world, appearance_of(frames, tracks[i].sightings.back()),
+      search.add(i, tracks[i].point_in_world, appearance_of(frames, tracks[i].observations.back()),
                  uncertainty_px);
   }
   std::vector<TrackMatch> matches;
@@ -74,7 +74,7 @@ std::vector<TrackMatch> match_to_tracks(const Rig& rig, const FrameBuffer& frame
   return matches;
 }
 
-void keep_useful(SurveyFrame& frame, std::span<TrackMatch> matches) {
+void drop_unused_features(SurveyFrame& frame, std::span<TrackMatch> matches) {
   const ObservedFrame& observed = frame.observed;
   const std::size_t count = observed.observations.size();
   std::vector<char> useful(count);
@@ -98,26 +98,27 @@ void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches
   for (const TrackMatch& match : matches) {
     Track& track = tracks[static_cast<std::size_t>(match.track)];
     const auto feature = static_cast<std::size_t>(match.feature);
-    track.sightings.push_back({frame.id, match.feature});
+    track.observations.push_back({frame.id, match.feature});
     taken[feature] = 1;
     if (!observed.observations[feature].has_disparity()) continue;
-    track.measured = track.sightings.back();
+    track.measured = track.observations.back();
     track.point_in_world = point(feature);
   }
   for (std::size_t i = 0; i < taken.size(); ++i) {
     if (taken[i] != 0 || !observed.observations[i].has_disparity()) continue;
-    const Sighting first{frame.id, static_cast<std::int32_t>(i)};
+    const ObservationRef first{frame.id, static_cast<std::int32_t>(i)};
     tracks.push_back({{first}, first, point(i)});
   }
 }
 
-std::vector<Track> take_finished(KeyframeId newest, const TrackOptions& options, std::vector<Track>& tracks) {
+std::vector<Track> extract_finished(KeyframeId newest, const TrackOptions& options,
+                                    std::vector<Track>& tracks) {
   const auto is_open = [&](const Track& track) {
-    const auto frames_since = [&](const Sighting& sighting) {
-      return newest.value - sighting.keyframe.value;
+    const auto frames_since = [&](const ObservationRef& observation) {
+      return newest.value - observation.keyframe.value;
     };
     const bool has_left = frames_since(track.measured) >= options.window;
-    const bool is_smooth = frames_since(track.sightings.back()) >= options.smooth_frames;
+    const bool is_smooth = frames_since(track.observations.back()) >= options.smooth_frames;
     return !(has_left || (is_full(track, newest, options) && is_smooth));
   };
   const auto finished = std::stable_partition(tracks.begin(), tracks.end(), is_open);

@@ -12,8 +12,8 @@ namespace cairn {
 
 /// Features of several frames that show one thing: a landmark in the making.
 struct Track {
-  std::vector<Sighting> sightings;  ///< by frame, increasing, one for each
-  Sighting measured;                ///< the latest with a disparity
+  std::vector<ObservationRef> observations;  ///< by frame, increasing, one for each
+  ObservationRef measured;                   ///< the latest with a disparity
   /// As that disparity places it, in the world of SurveyFrame::odometry.
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
 };
@@ -35,7 +35,7 @@ struct TrackMatch {
 
 /// Takes out of a frame what is of no use: features without a disparity that no match needs. The matches
 /// follow their features.
-void keep_useful(SurveyFrame& frame, std::span<TrackMatch> matches);
+void drop_unused_features(SurveyFrame& frame, std::span<TrackMatch> matches);
 
 /// Matched features join their tracks, if these are not full; each of the others begins one, at the end, if
 /// it has a disparity.
@@ -43,7 +43,7 @@ void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches
 
 /// Takes out, in their order, the tracks that have left the window of frames which ends at `newest`, and
 /// those that are full, once the poses of their frames are smooth.
-[[nodiscard]] std::vector<Track> take_finished(KeyframeId newest, const TrackOptions& options,
-                                               std::vector<Track>& tracks);
+[[nodiscard]] std::vector<Track> extract_finished(KeyframeId newest, const TrackOptions& options,
+                                                  std::vector<Track>& tracks);
 
 }  // namespace cairn

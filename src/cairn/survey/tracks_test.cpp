@@ -170,7 +170,7 @@ TEST(KeepUseful, keeps_what_has_a_disparity_or_a_match) {
   for (const std::size_t feature : {0U, 2U, 3U, 5U}) testkit::forget_disparity(feature, frame);
   const ObservedFrame all = frame.observed;
   std::vector<TrackMatch> matches{{10, 3}, {11, 4}};
-  keep_useful(frame, matches);
+  drop_unused_features(frame, matches);
   EXPECT_EQ(frame.kept, (std::vector<std::uint32_t>{1, 3, 4}));
   EXPECT_EQ(matches[0].feature, 1);
   EXPECT_EQ(matches[1].feature, 2);
@@ -204,21 +204,21 @@ TEST(ExtendTracks, features_join_or_begin) {
   const std::vector<TrackMatch> matches{{0, 0}, {2, 2}};
   extend_tracks(second, matches, tracks);
   ASSERT_EQ(tracks.size(), 5U);
-  EXPECT_EQ(tracks[0].sightings, testkit::sightings_of(0, 0, 1));  // joins without one, too,
-  EXPECT_EQ(tracks[0].measured, (Sighting{{0}, 0}));               // and stays where it was measured
+  EXPECT_EQ(tracks[0].observations, testkit::observations_of(0, 0, 1));  // joins without one, too,
+  EXPECT_EQ(tracks[0].measured, (ObservationRef{{0}, 0}));               // and stays where it was measured
   EXPECT_LT((tracks[0].point_in_world - points[0].position).norm(), 1e-9);
-  EXPECT_EQ(tracks[1].sightings, testkit::sightings_of(1, 0, 0));
-  EXPECT_EQ(tracks[2].measured, (Sighting{{1}, 2}));
+  EXPECT_EQ(tracks[1].observations, testkit::observations_of(1, 0, 0));
+  EXPECT_EQ(tracks[2].measured, (ObservationRef{{1}, 2}));
   EXPECT_NEAR((tracks[2].point_in_world - points[2].position).norm(), 1, 1e-9);
-  EXPECT_EQ(tracks[3].sightings, testkit::sightings_of(1, 1, 1));
-  EXPECT_EQ(tracks[4].sightings, testkit::sightings_of(3, 1, 1));
+  EXPECT_EQ(tracks[3].observations, testkit::observations_of(1, 1, 1));
+  EXPECT_EQ(tracks[4].observations, testkit::observations_of(3, 1, 1));
 }
 
 /// Numbers of the features whose tracks are finished at `newest`; those that stay remain in `tracks`.
 std::vector<std::int32_t> finished_at(int newest, const TrackOptions& options, std::vector<Track>& tracks) {
   std::vector<std::int32_t> features;
-  for (const Track& track : take_finished({newest}, options, tracks))
-    features.push_back(track.sightings.front().feature);
+  for (const Track& track : extract_finished({newest}, options, tracks))
+    features.push_back(track.observations.front().feature);
   return features;
 }
 
@@ -229,7 +229,7 @@ TEST(TakeFinished, tracks_that_left_the_window) {
   const FrameBuffer frames = testkit::drive(testkit::roadside_points(4), 8);
   std::vector<Track> tracks{testkit::track_of(frames, 0, 0, 3), testkit::track_of(frames, 1, 0, 2),
                             testkit::track_of(frames, 2, 0, 7), testkit::track_of(frames, 3, 2, 2)};
-  tracks[3].sightings.push_back({{6}, 3});  // without a disparity there: its place is too old
+  tracks[3].observations.push_back({{6}, 3});  // without a disparity there: its place is too old
   EXPECT_TRUE(finished_at(6, options, tracks).empty());
   EXPECT_EQ(finished_at(7, options, tracks), (std::vector<std::int32_t>{1, 3}));
   EXPECT_EQ(tracks.size(), 2U);

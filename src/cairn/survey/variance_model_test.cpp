@@ -51,7 +51,7 @@ class Landmarks {
     for (int i = 0; i < freedom; ++i) sum += std::pow(random_.normal(), 2);
     return sum;
   }
-  /// 2 n - 3 for n = 3 to 6 sightings.
+  /// 2 n - 3 for n = 3 to 6 observations.
   int redundancy() { return 3 + 2 * static_cast<int>(random_.index(4)); }
   double normal() { return random_.normal(); }
 

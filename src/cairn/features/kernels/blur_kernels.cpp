@@ -10,10 +10,10 @@ namespace {
 template <int vectors>
 void sum_block(const float* const* rows, int shift, const float* weights, int pairs, int x, float* out) {
   Lanes sum[vectors];
-  for (Lanes& value : sum) value = spread(0.0F);
+  for (Lanes& value : sum) value = broadcast(0.0F);
   for (int k = 0; k < pairs; ++k) {
     const float *above = rows[-k] + x, *below = rows[k + shift] + x;
-    const Lanes weight = spread(weights[k]);
+    const Lanes weight = broadcast(weights[k]);
     for (int i = 0; i < vectors; ++i)
       sum[i] = sum[i] + weight * (load(above + i * kLanes) + load(below + i * kLanes));
   }
@@ -23,9 +23,9 @@ void sum_block(const float* const* rows, int shift, const float* weights, int pa
 template <int vectors>
 void blur_block(const float* in, const float* weights, int radius, float* out) {
   Lanes sum[vectors];
-  for (int i = 0; i < vectors; ++i) sum[i] = spread(weights[0]) * load(in + i * kLanes);
+  for (int i = 0; i < vectors; ++i) sum[i] = broadcast(weights[0]) * load(in + i * kLanes);
   for (int k = 1; k <= radius; ++k) {
-    const Lanes weight = spread(weights[k]);
+    const Lanes weight = broadcast(weights[k]);
     for (int i = 0; i < vectors; ++i)
       sum[i] = sum[i] + weight * (load(in + i * kLanes - k) + load(in + i * kLanes + k));
   }

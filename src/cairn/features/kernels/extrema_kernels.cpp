@@ -38,7 +38,7 @@ Range range_around(const GaussianRows& gaussians, int level, int x, Lanes centre
 unsigned extrema_at(const GaussianRows& gaussians, int x, Lanes threshold) {
   constexpr int kOrder[] = {1, 0, 2};
   const Lanes centre = DifferenceRow{gaussians.rows[1][1], gaussians.rows[2][1]}.at(x);
-  unsigned maxima = at_least(centre, threshold), minima = at_least(spread(0.0F) - threshold, centre);
+  unsigned maxima = at_least(centre, threshold), minima = at_least(broadcast(0.0F) - threshold, centre);
   if ((maxima | minima) == 0) return 0;
   const Lanes finer = DifferenceRow{gaussians.rows[0][1], gaussians.rows[1][1]}.at(x);
   const Lanes coarser = DifferenceRow{gaussians.rows[2][1], gaussians.rows[3][1]}.at(x);
@@ -54,7 +54,7 @@ unsigned extrema_at(const GaussianRows& gaussians, int x, Lanes threshold) {
 }
 
 int find(const GaussianRows& gaussians, int begin, int end, float threshold, int* found) {
-  const Lanes thresholds = spread(threshold);
+  const Lanes thresholds = broadcast(threshold);
   int count = 0;
   for (int x = begin / kLanes * kLanes; x < end; x += kLanes) {  // rows begin at cache lines
     for (unsigned bits = extrema_at(gaussians, x, thresholds); bits != 0; bits &= bits - 1) {

@@ -20,7 +20,7 @@ static inline Lanes load(const float* from) {
 static inline void store(float* to, Lanes value) {
   _mm512_storeu_ps(to, value);
 }
-static inline Lanes spread(float value) {
+static inline Lanes broadcast(float value) {
   return _mm512_set1_ps(value);
 }
 static inline Lanes larger(Lanes a, Lanes b) {
@@ -50,7 +50,7 @@ static inline Lanes load(const float* from) {
 static inline void store(float* to, Lanes value) {
   _mm256_storeu_ps(to, value);
 }
-static inline Lanes spread(float value) {
+static inline Lanes broadcast(float value) {
   return _mm256_set1_ps(value);
 }
 static inline Lanes larger(Lanes a, Lanes b) {
@@ -79,7 +79,7 @@ static inline Lanes load(const float* from) {
 static inline void store(float* to, Lanes value) {
   _mm_storeu_ps(to, value);
 }
-static inline Lanes spread(float value) {
+static inline Lanes broadcast(float value) {
   return _mm_set1_ps(value);
 }
 static inline Lanes larger(Lanes a, Lanes b) {
@@ -109,7 +109,7 @@ static inline Lanes load(const float* from) {
 static inline void store(float* to, Lanes value) {
   *to = value;
 }
-static inline Lanes spread(float value) {
+static inline Lanes broadcast(float value) {
   return value;
 }
 static inline Lanes larger(Lanes a, Lanes b) {

@@ -100,21 +100,21 @@ Gradient gradient_at(const float* samples, int side) {
 Lanes small_angle(Lanes a) {
   constexpr float kBins = kOrientationBins * 0.15915494F;  // bins per radian
   const Lanes s = a * a;
-  return spread(kBins) * a *
-         (spread(0.9998660F) +
-          s * (spread(-0.3302995F) +
-               s * (spread(0.1801410F) + s * (spread(-0.0851330F) + s * spread(0.0208351F)))));
+  return broadcast(kBins) * a *
+         (broadcast(0.9998660F) +
+          s * (broadcast(-0.3302995F) +
+               s * (broadcast(0.1801410F) + s * (broadcast(-0.0851330F) + s * broadcast(0.0208351F)))));
 }
 
 /// Direction of the gradient in bins, [0, kOrientationBins].
 Lanes direction_of(const Gradient& gradient) {
-  const Lanes zero = spread(0.0F);
+  const Lanes zero = broadcast(0.0F);
   const Lanes ax = larger(gradient.x, zero - gradient.x), ay = larger(gradient.y, zero - gradient.y);
   constexpr float kTiny = 1e-20F;  // instead of a division by zero
-  const Lanes angle = small_angle(smaller(ax, ay) / larger(larger(ax, ay), spread(kTiny)));
-  const Lanes first = choose(ay, ax, spread(kOrientationBins / 4.0F) - angle, angle);
-  const Lanes upper = choose(zero, gradient.x, spread(kOrientationBins / 2.0F) - first, first);
-  return choose(zero, gradient.y, spread(kOrientationBins) - upper, upper);
+  const Lanes angle = small_angle(smaller(ax, ay) / larger(larger(ax, ay), broadcast(kTiny)));
+  const Lanes first = choose(ay, ax, broadcast(kOrientationBins / 4.0F) - angle, angle);
+  const Lanes upper = choose(zero, gradient.x, broadcast(kOrientationBins / 2.0F) - first, first);
+  return choose(zero, gradient.y, broadcast(kOrientationBins) - upper, upper);
 }
 
 /// Bin of each direction in a row of gradients, and their lengths times their weights.
@@ -123,7 +123,7 @@ void bins_of(const float* samples, const float* weights, int* bins, float* lengt
     const Gradient gradient = gradient_at(samples + j, kOrientationSide);
     const Lanes length = square_root(gradient.x * gradient.x + gradient.y * gradient.y);
     store(lengths + j, load(weights + j) * length);
-    store_truncated(bins + j, direction_of(gradient) + spread(0.5F));
+    store_truncated(bins + j, direction_of(gradient) + broadcast(0.5F));
   }
 }
 
@@ -148,7 +148,7 @@ void orientations(const float* samples, const float* weights, float* histogram) 
 /// Lowe's linear interpolation between neighbouring bins it is continuous and falls to zero one bin away, and
 /// needs no angle.
 void split(const Gradient& gradient, Lanes* shares) {
-  const Lanes zero = spread(0.0F);
+  const Lanes zero = broadcast(0.0F);
   const Lanes minus_x = zero - gradient.x, minus_y = zero - gradient.y;
   const Lanes ax = larger(gradient.x, minus_x), ay = larger(gradient.y, minus_y);
   const Lanes right = larger(gradient.x, zero), left = larger(minus_x, zero);
@@ -169,17 +169,17 @@ using Pooled = float[kCells][kDirections][kDescriptorSide];
 /// Columns [x, x + kLanes): each of the five bands of kCellSteps rows belongs to the cells above and below.
 void pool_rows(const float* samples, const CellWeights& weights, int x, Pooled& pooled) {
   Lanes upper[kDirections], lower[kDirections];
-  for (Lanes& sum : lower) sum = spread(0.0F);
+  for (Lanes& sum : lower) sum = broadcast(0.0F);
   for (int band = 0; band <= kCells; ++band) {
     for (int d = 0; d < kDirections; ++d) {
       upper[d] = lower[d];
-      lower[d] = spread(0.0F);
+      lower[d] = broadcast(0.0F);
     }
     for (int k = 0; k < kCellSteps; ++k) {
       Lanes shares[kDirections];
       split(gradient_at(samples + (band * kCellSteps + k) * kDescriptorSide + x, kDescriptorSide), shares);
-      const Lanes above = spread(band > 0 ? weights.weights[band - 1][kCellSteps + k] : 0.0F);
-      const Lanes below = spread(band < kCells ? weights.weights[band][k] : 0.0F);
+      const Lanes above = broadcast(band > 0 ? weights.weights[band - 1][kCellSteps + k] : 0.0F);
+      const Lanes below = broadcast(band < kCells ? weights.weights[band][k] : 0.0F);
       for (int d = 0; d < kDirections; ++d) {
         upper[d] = upper[d] + above * shares[d];
         lower[d] = lower[d] + below * shares[d];

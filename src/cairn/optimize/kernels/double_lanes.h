@@ -19,7 +19,7 @@ static inline DoubleLanes load(const double* from) {
 static inline void store(double* to, DoubleLanes value) {
   _mm512_storeu_pd(to, value);
 }
-static inline DoubleLanes spread(double value) {
+static inline DoubleLanes broadcast(double value) {
   return _mm512_set1_pd(value);
 }
 /// Lane by lane: a > b ? if_greater : otherwise.
@@ -53,7 +53,7 @@ static inline DoubleLanes load(const double* from) {
 static inline void store(double* to, DoubleLanes value) {
   _mm256_storeu_pd(to, value);
 }
-static inline DoubleLanes spread(double value) {
+static inline DoubleLanes broadcast(double value) {
   return _mm256_set1_pd(value);
 }
 static inline DoubleLanes choose(DoubleLanes a, DoubleLanes b, DoubleLanes if_greater,
@@ -73,7 +73,7 @@ static inline DoubleLanes load(const double* from) {
 static inline void store(double* to, DoubleLanes value) {
   _mm_storeu_pd(to, value);
 }
-static inline DoubleLanes spread(double value) {
+static inline DoubleLanes broadcast(double value) {
   return _mm_set1_pd(value);
 }
 static inline DoubleLanes choose(DoubleLanes a, DoubleLanes b, DoubleLanes if_greater,
@@ -93,7 +93,7 @@ static inline DoubleLanes load(const double* from) {
 static inline void store(double* to, DoubleLanes value) {
   *to = value;
 }
-static inline DoubleLanes spread(double value) {
+static inline DoubleLanes broadcast(double value) {
   return value;
 }
 static inline DoubleLanes choose(DoubleLanes a, DoubleLanes b, DoubleLanes if_greater,

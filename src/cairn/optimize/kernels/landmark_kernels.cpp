@@ -7,13 +7,13 @@ namespace cairn::CAIRN_ISA {
 namespace {
 
 constexpr double kMinDepth = 1e-6;  // metres, as is_in_front has it
-constexpr int kVectors = kSightingLanes / kDoubleLanes;
+constexpr int kVectors = kObservationLanes / kDoubleLanes;
 
 struct Three {
   DoubleLanes x, y, z;
 };
 
-[[gnu::always_inline]] inline Three load_three(const double (*from)[kSightingLanes], int lane) {
+[[gnu::always_inline]] inline Three load_three(const double (*from)[kObservationLanes], int lane) {
   return {load(from[0] + lane), load(from[1] + lane), load(from[2] + lane)};
 }
 [[gnu::always_inline]] inline Three minus(const Three& a, const Three& b) {
@@ -26,7 +26,7 @@ struct Three {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The derivatives of the three errors of a sighting, and the errors.
+/// The derivatives of the three errors of an observation, and the errors.
 struct Rows {
   Three u, v, d;
   DoubleLanes eu, ev, ed;
@@ -56,11 +56,11 @@ struct LaneSums {
   total.sums[kInformation + 5] += u.z * u.z + v.z * v.z + d.z * d.z;
 }
 
-/// -(g a^T + a g^T) with g the sighting's gradient and a = axis / depth. For each error is of the form
+/// -(g a^T + a g^T) with g the observation's gradient and a = axis / depth. For each error is of the form
 /// e = (m . q) / (axis . q) + constant, and so its second derivative is -(e' a^T + a e'^T), e' being its
 /// first.
 [[gnu::always_inline]] inline void add_curvature(const Three& g, const Three& a, LaneSums& total) {
-  const Three b{spread(0.0) - a.x, spread(0.0) - a.y, spread(0.0) - a.z};
+  const Three b{broadcast(0.0) - a.x, broadcast(0.0) - a.y, broadcast(0.0) - a.z};
   total.sums[kCurvature] += g.x * b.x + g.x * b.x;
   total.sums[kCurvature + 1] += g.x * b.y + g.y * b.x;
   total.sums[kCurvature + 2] += g.x * b.z + g.z * b.x;
@@ -72,11 +72,12 @@ struct LaneSums {
 /// The derivative of (u . q) / z is (u - error axis) / z, that of scale / z is -scale / z^2 axis; of the
 /// linear equations (u . q) / z_0 and (scale - disparity z) / z_0 it is u / z_0 and -disparity / z_0 axis.
 template <bool linear>
-[[gnu::always_inline]] inline void add_sightings(const SightingBlock& block, int lane, const Three& point,
-                                                 LaneSums& total, double* pixel_errors, double* errors) {
+[[gnu::always_inline]] inline void add_observations(const ObservationBlock& block, int lane,
+                                                    const Three& point, LaneSums& total, double* pixel_errors,
+                                                    double* errors) {
   const Three u = load_three(block.u, lane), v = load_three(block.v, lane);
   const Three axis = load_three(block.axis, lane), q = minus(point, load_three(block.centre, lane));
-  const DoubleLanes depth = dot(axis, q), inverse = spread(1.0) / depth;
+  const DoubleLanes depth = dot(axis, q), inverse = broadcast(1.0) / depth;
   const DoubleLanes disparity = load(block.disparity + lane);
   const DoubleLanes projected = load(block.disparity_scale + lane) * inverse;
   Rows rows;
@@ -86,14 +87,14 @@ template <bool linear>
   rows.u = times(inverse, linear ? u : minus(u, times(rows.eu, axis)));
   rows.v = times(inverse, linear ? v : minus(v, times(rows.ev, axis)));
   const Three by_depth = times(inverse, axis);
-  rows.d = times(spread(0.0) - (linear ? disparity : projected), by_depth);
+  rows.d = times(broadcast(0.0) - (linear ? disparity : projected), by_depth);
   add_information(rows, total);
   const Three gradient = gradient_of(rows);
   total.sums[kGradient] += gradient.x;
   total.sums[kGradient + 1] += gradient.y;
   total.sums[kGradient + 2] += gradient.z;
   if (!linear) add_curvature(gradient, by_depth, total);
-  const DoubleLanes least = spread(kMinDepth), behind = spread(__builtin_inf());
+  const DoubleLanes least = broadcast(kMinDepth), behind = broadcast(__builtin_inf());
   const DoubleLanes of_pixel = rows.eu * rows.eu + rows.ev * rows.ev;
   const DoubleLanes of_all = choose(depth, least, of_pixel + rows.ed * rows.ed, behind);
   total.sums[kSquaredError] += of_all;
@@ -103,20 +104,20 @@ template <bool linear>
 
 /// What the lanes from `lane` see.
 template <bool linear>
-[[gnu::always_inline]] inline LaneSums sum_lanes(const SightingBlock* blocks, int count, int lane,
+[[gnu::always_inline]] inline LaneSums sum_lanes(const ObservationBlock* blocks, int count, int lane,
                                                  const Three& point, double* pixel_errors, double* errors) {
   LaneSums total;
-  for (DoubleLanes& sum : total.sums) sum = spread(0.0);
+  for (DoubleLanes& sum : total.sums) sum = broadcast(0.0);
   for (int i = 0; i < count; ++i)
-    add_sightings<linear>(blocks[i], lane, point, total, pixel_errors + i * kSightingLanes,
-                          errors + i * kSightingLanes);
+    add_observations<linear>(blocks[i], lane, point, total, pixel_errors + i * kObservationLanes,
+                             errors + i * kObservationLanes);
   return total;
 }
 
 template <bool linear>
-void sum_sightings(const SightingBlock* blocks, int count, const double* point, LandmarkSums* sums,
-                   double* pixel_errors, double* errors) {
-  const Three at{spread(point[0]), spread(point[1]), spread(point[2])};
+void sum_observations(const ObservationBlock* blocks, int count, const double* point, LandmarkSums* sums,
+                      double* pixel_errors, double* errors) {
+  const Three at{broadcast(point[0]), broadcast(point[1]), broadcast(point[2])};
   DoubleLanes eights[kSums][kVectors];
   for (int i = 0; i < kVectors; ++i) {
     const LaneSums total = sum_lanes<linear>(blocks, count, i * kDoubleLanes, at, pixel_errors, errors);
@@ -130,6 +131,6 @@ void sum_sightings(const SightingBlock* blocks, int count, const double* point, 
 }  // namespace
 
 extern const LandmarkKernels kLandmarkKernels;
-const LandmarkKernels kLandmarkKernels{sum_sightings<false>, sum_sightings<true>};
+const LandmarkKernels kLandmarkKernels{sum_observations<false>, sum_observations<true>};
 
 }  // namespace cairn::CAIRN_ISA

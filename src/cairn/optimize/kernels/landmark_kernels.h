@@ -5,9 +5,9 @@
 
 namespace cairn {
 
-constexpr int kSightingLanes = 8;  ///< sightings side by side, the widest vector of doubles
+constexpr int kObservationLanes = 8;  ///< observations side by side, the widest vector of doubles
 
-/// Eight sightings of one landmark; lane i of every array is the i-th one's. With R the rotation
+/// Eight observations of one landmark; lane i of every array is the i-th one's. With R the rotation
 /// camera_from_world, c the camera's centre, q = X - c, and s, t the inverse standard deviations of pixels
 /// and disparity, the errors of the point X in standard deviations are
 ///
@@ -15,17 +15,18 @@ constexpr int kSightingLanes = 8;  ///< sightings side by side, the widest vecto
 ///     (v . q) / (axis . q),   v = s (fy R_1 - (seen v - cy) R_2)
 ///     disparity_scale / (axis . q) - disparity,   with axis = R_2, t fx baseline and t times the seen one.
 ///
-/// A lane without a sighting has the axis and centre of another one, and zeros.
-struct alignas(64) SightingBlock {
-  double u[3][kSightingLanes];
-  double v[3][kSightingLanes];
-  double axis[3][kSightingLanes];
-  double centre[3][kSightingLanes];
-  double disparity_scale[kSightingLanes];
-  double disparity[kSightingLanes];
+/// A lane without an observation has the axis and centre of another one, and zeros.
+struct alignas(64) ObservationBlock {
+  double u[3][kObservationLanes];
+  double v[3][kObservationLanes];
+  double axis[3][kObservationLanes];
+  double centre[3][kObservationLanes];
+  double disparity_scale[kObservationLanes];
+  double disparity[kObservationLanes];
 };
 
-/// Half the cost to second order in the point: sums over the sightings. Matrices are xx, xy, xz, yy, yz, zz.
+/// Half the cost to second order in the point: sums over the observations. Matrices are xx, xy, xz, yy, yz,
+/// zz.
 struct LandmarkSums {
   double information[6];  ///< J^T J
   double curvature[6];    ///< what the second derivatives of the errors, times these, add to it
@@ -36,9 +37,9 @@ struct LandmarkSums {
 /// A landmark's equations at `point`: of the errors e for `expand`; for `linearise` of equations linear in
 /// the point, the errors times depth over the depth of `point` (Hartley and Sturm 1997, sec. 5.2). Their
 /// values at `point` are the same. pixel_errors and errors get each lane's squared error, of (u, v) and of
-/// all, in variances. A sighting less than a micrometre in front of its camera has infinite squared errors,
-/// and then the derivatives mean nothing.
-using LandmarkExpansion = void(const SightingBlock* blocks, int count, const double* point,
+/// all, in variances. An observation less than a micrometre in front of its camera has infinite squared
+/// errors, and then the derivatives mean nothing.
+using LandmarkExpansion = void(const ObservationBlock* blocks, int count, const double* point,
                                LandmarkSums* sums, double* pixel_errors, double* errors);
 
 struct LandmarkKernels {

@@ -17,14 +17,14 @@
 namespace cairn {
 namespace {
 
-constexpr int kBlocks = 3, kSlots = kBlocks * kSightingLanes;
+constexpr int kBlocks = 3, kSlots = kBlocks * kObservationLanes;
 
-/// Sightings of points around (0, 0, 10) from around the origin, all with errors of a few pixels.
-std::vector<SightingBlock> random_blocks(std::uint64_t seed) {
+/// Observations of points around (0, 0, 10) from around the origin, all with errors of a few pixels.
+std::vector<ObservationBlock> random_blocks(std::uint64_t seed) {
   Random random(seed);
-  std::vector<SightingBlock> blocks(kBlocks);
-  for (SightingBlock& block : blocks) {
-    for (int lane = 0; lane < kSightingLanes; ++lane) {
+  std::vector<ObservationBlock> blocks(kBlocks);
+  for (ObservationBlock& block : blocks) {
+    for (int lane = 0; lane < kObservationLanes; ++lane) {
       for (int i = 0; i < 3; ++i) {
         block.u[i][lane] = (i == 0 ? 700 : 0) + 20 * random.normal();
         block.v[i][lane] = (i == 1 ? 700 : 0) + 20 * random.normal();
@@ -43,7 +43,7 @@ struct Result {
   std::array<double, kSlots> pixel_errors{}, errors{};
 };
 
-Result run(LandmarkExpansion* expansion, const std::vector<SightingBlock>& blocks,
+Result run(LandmarkExpansion* expansion, const std::vector<ObservationBlock>& blocks,
            const Eigen::Vector3d& point) {
   Result result;
   expansion(blocks.data(), static_cast<int>(blocks.size()), point.data(), &result.sums,
@@ -65,9 +65,10 @@ bool same_bits(const Result& a, const Result& b) {
          same_bits(a.errors.data(), b.errors.data(), a.errors.size());
 }
 
-/// (u, v, d) errors of one sighting at a point, as SightingBlock has them; linear: times depth over `depth`.
-Eigen::Vector3d errors_of(const SightingBlock& block, int lane, const Eigen::Vector3d& point) {
-  const auto column = [&](const double(&rows)[3][kSightingLanes]) {
+/// (u, v, d) errors of one observation at a point, as ObservationBlock has them; linear: times depth over
+/// `depth`.
+Eigen::Vector3d errors_of(const ObservationBlock& block, int lane, const Eigen::Vector3d& point) {
+  const auto column = [&](const double(&rows)[3][kObservationLanes]) {
     return Eigen::Vector3d(rows[0][lane], rows[1][lane], rows[2][lane]);
   };
   const Eigen::Vector3d q = point - column(block.centre);
@@ -76,14 +77,15 @@ Eigen::Vector3d errors_of(const SightingBlock& block, int lane, const Eigen::Vec
           block.disparity_scale[lane] / depth - block.disparity[lane]};
 }
 
-double depth_of(const SightingBlock& block, int lane, const Eigen::Vector3d& point) {
+double depth_of(const ObservationBlock& block, int lane, const Eigen::Vector3d& point) {
   double depth = 0;
   for (int i = 0; i < 3; ++i) depth += block.axis[i][lane] * (point[i] - block.centre[i][lane]);
   return depth;
 }
 
 /// By differences; those of the linear equations where `linear`.
-Eigen::Matrix3d derivative(const SightingBlock& block, int lane, const Eigen::Vector3d& point, bool linear) {
+Eigen::Matrix3d derivative(const ObservationBlock& block, int lane, const Eigen::Vector3d& point,
+                           bool linear) {
   constexpr double kStep = 1e-4;
   const auto value = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
     const double scale = linear ? depth_of(block, lane, at) / depth_of(block, lane, point) : 1.0;
@@ -104,15 +106,15 @@ class LandmarkKernelsTest : public testing::TestWithParam<InstructionSet> {
 
   /// Against sums of plain matrices with derivatives by differences.
   void expect_sums(LandmarkExpansion* expansion, bool linear) {
-    const std::vector<SightingBlock> blocks = random_blocks(5);
+    const std::vector<ObservationBlock> blocks = random_blocks(5);
     const Eigen::Vector3d point(0.3, -0.2, 9);
     const Result result = run(expansion, blocks, point);
     Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     double sum = 0;
     for (int slot = 0; slot < kSlots; ++slot) {
-      const SightingBlock& block = blocks[static_cast<std::size_t>(slot / kSightingLanes)];
-      const int lane = slot % kSightingLanes;
+      const ObservationBlock& block = blocks[static_cast<std::size_t>(slot / kObservationLanes)];
+      const int lane = slot % kObservationLanes;
       const Eigen::Vector3d error = errors_of(block, lane, point);
       const Eigen::Matrix3d jacobian = derivative(block, lane, point, linear);
       hessian += jacobian.transpose() * jacobian;
@@ -134,7 +136,7 @@ class LandmarkKernelsTest : public testing::TestWithParam<InstructionSet> {
 TEST_P(LandmarkKernelsTest, SameBitsAsPlain) {
   Random random(1);
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    std::vector<SightingBlock> blocks = random_blocks(seed);
+    std::vector<ObservationBlock> blocks = random_blocks(seed);
     blocks.resize(1 + seed % kBlocks);
     const Eigen::Vector3d point(random.normal(), random.normal(), 9 + random.normal());
     ASSERT_TRUE(same_bits(run(kernels_.expand, blocks, point), run(plain_.expand, blocks, point)));
@@ -151,7 +153,7 @@ TEST_P(LandmarkKernelsTest, LinearEquationsAreThoseOfTheErrorsTimesDepth) {
 }
 
 TEST_P(LandmarkKernelsTest, BehindACameraTheErrorIsInfinite) {
-  std::vector<SightingBlock> blocks = random_blocks(2);
+  std::vector<ObservationBlock> blocks = random_blocks(2);
   blocks[1].centre[2][3] = 20;
   const Result result = run(kernels_.expand, blocks, {0, 0, 10});
   for (std::size_t slot = 0; slot < kSlots; ++slot) {

@@ -133,20 +133,20 @@ void StreetWorld::put_look(std::size_t point, Random& of_view, std::uint8_t* row
 
 /// Returns ids, in their order, for points that are seen twice.
 std::vector<LandmarkId> StreetWorld::number_landmarks() const {
-  std::vector<int> sightings(points_.size(), 0);
+  std::vector<int> observations(points_.size(), 0);
   for (int k = 0; k < options_.keyframes; ++k)
-    for (const std::size_t point : visible(keyframe_pose(k), options_.features)) ++sightings[point];
+    for (const std::size_t point : visible(keyframe_pose(k), options_.features)) ++observations[point];
   std::vector<LandmarkId> ids(points_.size());
   std::int32_t next = 0;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    if (sightings[i] >= 2) ids[i] = {next++};
+    if (observations[i] >= 2) ids[i] = {next++};
   return ids;
 }
 
 FinishedLandmark StreetWorld::landmark(std::size_t point, const std::deque<KeyframeView>& window,
                                        Random& random) const {
   FinishedLandmark result;
-  std::vector<LandmarkView> seen;
+  std::vector<PosedObservation> seen;
   std::vector<const std::uint8_t*> rows;
   for (const KeyframeView& keyframe : window) {
     const auto& points = keyframe.view.points;
@@ -154,7 +154,7 @@ FinishedLandmark StreetWorld::landmark(std::size_t point, const std::deque<Keyfr
     if (place == points.end() || *place != point) continue;
     const auto feature = static_cast<std::size_t>(place - points.begin());
     const ObservedFrame& frame = keyframe.view.frame;
-    result.sightings.push_back({keyframe.id, static_cast<std::int32_t>(feature)});
+    result.observations.push_back({keyframe.id, static_cast<std::int32_t>(feature)});
     result.keypoints.push_back(frame.features.keypoints[feature]);
     rows.push_back(frame.features.descriptors.row(feature));
     seen.push_back({keyframe.world_from_camera.inverse(), frame.observations[feature]});

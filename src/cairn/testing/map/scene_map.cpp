@@ -59,8 +59,8 @@ Map scene_map() {
   }
   for (std::int32_t i = 0; i < 10; ++i) {
     const LandmarkId id = map.add_landmark(points[static_cast<std::size_t>(i)], {{i % 3}, i});
-    map.add_sighting(id, {{3}, i});
-    if (i % 2 == 0) map.add_sighting(id, {{4}, i});
+    map.add_observation(id, {{3}, i});
+    if (i % 2 == 0) map.add_observation(id, {{4}, i});
   }
   map.erase(LandmarkId{0});
   map.erase(LandmarkId{7});

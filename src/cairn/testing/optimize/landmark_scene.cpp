@@ -39,10 +39,10 @@ class Maker {
     scene_.points_in_world.push_back(scene_.cameras[static_cast<std::size_t>(last)].inverse() * in_last);
     scene_.tracks.emplace_back();
     scene_.wrong.emplace_back();
-    for (int i = last - track + 1; i <= last; ++i) add_sighting(i);
+    for (int i = last - track + 1; i <= last; ++i) add_observation(i);
   }
 
-  void add_sighting(int camera) {
+  void add_observation(int camera) {
     const Eigen::Vector3d in_camera =
         scene_.cameras[static_cast<std::size_t>(camera)] * scene_.points_in_world.back();
     const double sigma = options_.noise_px > 0 ? options_.noise_px : 0.5;

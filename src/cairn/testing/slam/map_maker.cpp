@@ -17,11 +17,11 @@ KeyframeId MapMaker::add(const Rigid3& truth, const Rigid3& placed) {
   const KeyframeId id = indexed.add_keyframe(std::move(view.observed), placed, {next - 1}, 0);
   for (std::size_t i = 0; i < view.points.size(); ++i) {
     Known& point = known[view.points[i]];
-    const Sighting sighting{id, static_cast<std::int32_t>(i)};
+    const ObservationRef observation{id, static_cast<std::int32_t>(i)};
     if (point.landmark.valid() && next - point.last_seen <= memory) {
-      map.add_sighting(point.landmark, sighting);
+      map.add_observation(point.landmark, observation);
     } else {
-      point.landmark = map.add_landmark(placed * map[id].observed.points_in_camera[i], sighting);
+      point.landmark = map.add_landmark(placed * map[id].observed.points_in_camera[i], observation);
     }
     point.last_seen = next;
   }

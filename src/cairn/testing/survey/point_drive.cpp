@@ -56,15 +56,15 @@ FrameBuffer drive(const std::vector<DrivePoint>& points, int count, double noise
   return frames;
 }
 
-std::vector<Sighting> sightings_of(std::int32_t feature, int first, int last) {
-  std::vector<Sighting> sightings;
-  for (int frame = first; frame <= last; ++frame) sightings.push_back({{frame}, feature});
-  return sightings;
+std::vector<ObservationRef> observations_of(std::int32_t feature, int first, int last) {
+  std::vector<ObservationRef> observations;
+  for (int frame = first; frame <= last; ++frame) observations.push_back({{frame}, feature});
+  return observations;
 }
 
 Track track_of(const FrameBuffer& frames, std::int32_t feature, int first, int last) {
   const SurveyFrame& newest = frames[KeyframeId{last}];
-  return {sightings_of(feature, first, last),
+  return {observations_of(feature, first, last),
           {{last}, feature},
           newest.odometry * newest.observed.points_in_camera[static_cast<std::size_t>(feature)]};
 }

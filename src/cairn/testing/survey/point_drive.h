@@ -36,10 +36,10 @@ void forget_disparity(std::size_t feature, SurveyFrame& frame);
 /// Returns the first frames of the drive, whose poses are those of on_bend.
 [[nodiscard]] FrameBuffer drive(const std::vector<DrivePoint>& points, int count, double noise_px = 0);
 
-/// Returns the sightings of `feature` in frames `first` to `last`.
-[[nodiscard]] std::vector<Sighting> sightings_of(std::int32_t feature, int first, int last);
+/// Returns the observations of `feature` in frames `first` to `last`.
+[[nodiscard]] std::vector<ObservationRef> observations_of(std::int32_t feature, int first, int last);
 
-/// Returns a track of these sightings.
+/// Returns a track of these observations.
 [[nodiscard]] Track track_of(const FrameBuffer& frames, std::int32_t feature, int first, int last);
 
 }  // namespace cairn::testkit

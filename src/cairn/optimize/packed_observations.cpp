@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/optimize/packed_sightings.h"
+#include "cairn/optimize/packed_observations.h"
 
 #include <algorithm>
 
@@ -9,47 +9,48 @@
 namespace cairn {
 namespace {
 
-SightingBlock& block_of(std::vector<SightingBlock>& blocks, int slot) {
-  return blocks[static_cast<std::size_t>(slot / kSightingLanes)];
+ObservationBlock& block_of(std::vector<ObservationBlock>& blocks, int slot) {
+  return blocks[static_cast<std::size_t>(slot / kObservationLanes)];
 }
 
-void store(const Eigen::Vector3d& value, double (*to)[kSightingLanes], int lane) {
+void store(const Eigen::Vector3d& value, double (*to)[kObservationLanes], int lane) {
   for (int i = 0; i < 3; ++i) to[i][lane] = value[i];
 }
 
-void copy(const double (*from)[kSightingLanes], int from_lane, double (*to)[kSightingLanes], int to_lane) {
+void copy(const double (*from)[kObservationLanes], int from_lane, double (*to)[kObservationLanes],
+          int to_lane) {
   for (int i = 0; i < 3; ++i) to[i][to_lane] = from[i][from_lane];
 }
 
 }  // namespace
 
-void PackedSightings::pack(const Rig& rig, std::span<const PlacedCamera> cameras,
-                           std::span<const LandmarkSighting> all) {
+void PackedObservations::pack(const Rig& rig, std::span<const PlacedCamera> cameras,
+                              std::span<const CameraObservation> all) {
   count_ = static_cast<int>(all.size());
-  if (sightings_.size() < all.size()) {
-    sightings_.resize(all.size());
+  if (observations_.size() < all.size()) {
+    observations_.resize(all.size());
     blocks_.resize(static_cast<std::size_t>(block_count()));
   }
   bool in_range = true, usable = true;
-  for (const LandmarkSighting& sighting : all) {
-    in_range = in_range && static_cast<std::uint32_t>(sighting.camera) < cameras.size();
-    usable = usable && is_usable(sighting.seen);
+  for (const CameraObservation& observation : all) {
+    in_range = in_range && static_cast<std::uint32_t>(observation.camera) < cameras.size();
+    usable = usable && is_usable(observation.seen);
   }
   require(in_range, "a sighting is by a camera");
   require(usable, "pixels are finite and sigmas above 0");
   if (all.empty()) return;
   origin_in_world_ = cameras[static_cast<std::size_t>(all[0].camera)].centre_in_world;
   for (int slot = 0; slot < count_; ++slot) {
-    const LandmarkSighting& sighting = all[static_cast<std::size_t>(slot)];
-    put(rig, cameras[static_cast<std::size_t>(sighting.camera)], sighting.seen, slot);
-    sightings_[static_cast<std::size_t>(slot)] = slot;
+    const CameraObservation& observation = all[static_cast<std::size_t>(slot)];
+    put(rig, cameras[static_cast<std::size_t>(observation.camera)], observation.seen, slot);
+    observations_[static_cast<std::size_t>(slot)] = slot;
   }
   fill_up();
 }
 
-void PackedSightings::put(const Rig& rig, const PlacedCamera& camera, const Observation& seen, int slot) {
-  SightingBlock& block = block_of(blocks_, slot);
-  const int lane = slot % kSightingLanes;
+void PackedObservations::put(const Rig& rig, const PlacedCamera& camera, const Observation& seen, int slot) {
+  ObservationBlock& block = block_of(blocks_, slot);
+  const int lane = slot % kObservationLanes;
   const double per_px = 1.0 / seen.sigma_px, per_d_px = seen.has_disparity() ? 1.0 / seen.sigma_d_px : 0.0;
   const auto right = camera.world_from_camera.col(0), down = camera.world_from_camera.col(1),
              axis = camera.world_from_camera.col(2);
@@ -61,31 +62,31 @@ void PackedSightings::put(const Rig& rig, const PlacedCamera& camera, const Obse
   block.disparity[lane] = seen.has_disparity() ? seen.d * per_d_px : 0.0;
 }
 
-void PackedSightings::drop(int slot) {
+void PackedObservations::drop(int slot) {
   require(slot >= 0 && slot < count_, "a slot holds a sighting");
   --count_;
   if (slot != count_) move(count_, slot);
   if (count_ > 0) fill_up();
 }
 
-void PackedSightings::move(int from, int to) {
-  const SightingBlock& source = block_of(blocks_, from);
-  SightingBlock& target = block_of(blocks_, to);
-  const int old_lane = from % kSightingLanes, new_lane = to % kSightingLanes;
+void PackedObservations::move(int from, int to) {
+  const ObservationBlock& source = block_of(blocks_, from);
+  ObservationBlock& target = block_of(blocks_, to);
+  const int old_lane = from % kObservationLanes, new_lane = to % kObservationLanes;
   copy(source.u, old_lane, target.u, new_lane);
   copy(source.v, old_lane, target.v, new_lane);
   copy(source.axis, old_lane, target.axis, new_lane);
   copy(source.centre, old_lane, target.centre, new_lane);
   target.disparity_scale[new_lane] = source.disparity_scale[old_lane];
   target.disparity[new_lane] = source.disparity[old_lane];
-  sightings_[static_cast<std::size_t>(to)] = sightings_[static_cast<std::size_t>(from)];
+  observations_[static_cast<std::size_t>(to)] = observations_[static_cast<std::size_t>(from)];
 }
 
-void PackedSightings::fill_up() {
-  const SightingBlock& first = blocks_.front();
-  for (int slot = count_; slot % kSightingLanes != 0; ++slot) {
-    SightingBlock& block = block_of(blocks_, slot);
-    const int lane = slot % kSightingLanes;
+void PackedObservations::fill_up() {
+  const ObservationBlock& first = blocks_.front();
+  for (int slot = count_; slot % kObservationLanes != 0; ++slot) {
+    ObservationBlock& block = block_of(blocks_, slot);
+    const int lane = slot % kObservationLanes;
     store(Eigen::Vector3d::Zero(), block.u, lane);
     store(Eigen::Vector3d::Zero(), block.v, lane);
     copy(first.axis, 0, block.axis, lane);

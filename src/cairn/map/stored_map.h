@@ -13,7 +13,7 @@
 namespace cairn {
 
 /// A keyframe of a map, with those of its features that show a landmark.
-struct ViewedKeyframe {
+struct StoredKeyframe {
   WorldFromCamera world_from_camera;
   std::vector<LandmarkId> landmarks;
   std::vector<Keypoint> keypoints;  ///< of each
@@ -23,23 +23,23 @@ struct ViewedKeyframe {
 /// A map on disk, opened for reading without reading it: the large files are mapped into memory, and what is
 /// asked for is checked when it is first touched. Safe to use from several threads. InputError names a file
 /// that is missing, damaged, of another version, or does not fit the others.
-class MapView {
+class StoredMap {
  public:
   /// The folder of a map, or of a run with one in its map/.
-  explicit MapView(const std::filesystem::path& folder);
-  ~MapView();
-  MapView(const MapView&) = delete;
-  MapView& operator=(const MapView&) = delete;
+  explicit StoredMap(const std::filesystem::path& folder);
+  ~StoredMap();
+  StoredMap(const StoredMap&) = delete;
+  StoredMap& operator=(const StoredMap&) = delete;
 
   [[nodiscard]] const MapInfo& info() const { return info_; }
   /// world_from_camera of each keyframe.
   [[nodiscard]] const std::vector<WorldFromCamera>& poses() const { return poses_; }
-  /// Whether the keyframe is of the part with the most keyframes, which alone has one world.
-  [[nodiscard]] bool in_main_part(KeyframeId id) const;
+  /// Whether the keyframe is of the component with the most keyframes, which alone has one world.
+  [[nodiscard]] bool in_main_component(KeyframeId id) const;
   [[nodiscard]] const PlaceFile& places() const { return places_; }
   [[nodiscard]] StoredLandmark landmark(LandmarkId id) const;
   /// Read when it is first asked for; those used last are kept in memory.
-  [[nodiscard]] std::shared_ptr<const ViewedKeyframe> keyframe(KeyframeId id) const;
+  [[nodiscard]] std::shared_ptr<const StoredKeyframe> keyframe(KeyframeId id) const;
 
   /// Returns what was read of the mapped files, landmarks and places, so far.
   [[nodiscard]] std::uint64_t touched_bytes() const;
@@ -55,7 +55,7 @@ class MapView {
   std::vector<WorldFromCamera> poses_;
   MappedFile points_;
   PlaceFile places_;
-  std::int32_t main_part_ = 0;
+  std::int32_t main_component_ = 0;
   std::unique_ptr<Cache> cache_;
 };
 

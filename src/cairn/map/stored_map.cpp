@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/map_view.h"
+#include "cairn/map/stored_map.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,13 @@
 #include "cairn/core/error.h"
 #include "cairn/map/frame_file.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 
 namespace cairn {
 namespace {
 
-ViewedKeyframe viewed(const FrameFile& file, const WorldFromCamera& world_from_camera) {
-  ViewedKeyframe view{world_from_camera, {}, {}, {}};
+StoredKeyframe stored_keyframe(const FrameFile& file, const WorldFromCamera& world_from_camera) {
+  StoredKeyframe view{world_from_camera, {}, {}, {}};
   const auto& [keypoints, descriptors] = file.observed.features;
   const auto count = static_cast<std::size_t>(
       std::count_if(file.landmarks.begin(), file.landmarks.end(), [](LandmarkId id) { return id.valid(); }));
@@ -32,9 +32,9 @@ ViewedKeyframe viewed(const FrameFile& file, const WorldFromCamera& world_from_c
 }
 
 /// With the most keyframes, of several the first.
-std::int32_t main_part_of(const MapInfo& info) {
+std::int32_t main_component_of(const MapInfo& info) {
   std::map<std::int32_t, std::size_t> sizes;
-  for (const KeyframeEntry& keyframe : info.keyframes) ++sizes[keyframe.part];
+  for (const KeyframeEntry& keyframe : info.keyframes) ++sizes[keyframe.component];
   const auto largest = std::max_element(sizes.begin(), sizes.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
   return largest->first;
@@ -43,9 +43,9 @@ std::int32_t main_part_of(const MapInfo& info) {
 }  // namespace
 
 /// The keyframes used last.
-class MapView::Cache {
+class StoredMap::Cache {
  public:
-  using Entry = std::shared_ptr<const ViewedKeyframe>;
+  using Entry = std::shared_ptr<const StoredKeyframe>;
 
   [[nodiscard]] Entry find(KeyframeId id) {
     const std::scoped_lock lock(mutex_);
@@ -67,55 +67,55 @@ class MapView::Cache {
   std::vector<std::pair<KeyframeId, Entry>> entries_;  // last used first
 };
 
-MapView::MapView(const std::filesystem::path& folder)
+StoredMap::StoredMap(const std::filesystem::path& folder)
     : folder_(require_map_folder(folder)),
       info_(read_map_info(folder_ / kMapInfoFile)),
       poses_(read_map_poses(folder_, info_)),
       points_(folder_ / kPointFile, kPointKind, info_.checksum_of(kPointFile)),
       places_(folder_, info_),
-      main_part_(main_part_of(info_)),
+      main_component_(main_component_of(info_)),
       cache_(std::make_unique<Cache>()) {
   if (points_.size() != kPointBegin + kLandmarkBytes * std::uint64_t{info_.landmarks})
     points_.fail(fmt::format("{} landmarks, as map.json says", info_.landmarks),
                  fmt::format("{} bytes", points_.size()));
 }
 
-MapView::~MapView() = default;
+StoredMap::~StoredMap() = default;
 
-bool MapView::in_main_part(KeyframeId id) const {
-  return info_.keyframes[id.index()].part == main_part_;
+bool StoredMap::in_main_component(KeyframeId id) const {
+  return info_.keyframes[id.index()].component == main_component_;
 }
 
-StoredLandmark MapView::landmark(LandmarkId id) const {
+StoredLandmark StoredMap::landmark(LandmarkId id) const {
   require(id.valid() && static_cast<std::uint32_t>(id.value) < info_.landmarks, "the landmark is in the map");
   const std::uint64_t begin = kPointBegin + kLandmarkBytes * static_cast<std::uint64_t>(id.value);
   StoredLandmark landmark;
-  landmark.sightings = points_.at<std::uint32_t>(begin + 4);
+  landmark.observations = points_.at<std::uint32_t>(begin + 4);
   landmark.first_row = points_.at<std::uint64_t>(begin + 8);
   std::memcpy(landmark.point_in_world.data(), points_.bytes(begin + 16, 24), 24);
   std::memcpy(landmark.covariance.data(), points_.bytes(begin + 40, 72), 72);
-  const bool rows_exist =
-      landmark.first_row <= info_.sightings && landmark.sightings <= info_.sightings - landmark.first_row;
+  const bool rows_exist = landmark.first_row <= info_.observations &&
+                          landmark.observations <= info_.observations - landmark.first_row;
   if (!rows_exist || !landmark.point_in_world.allFinite() || !is_covariance(landmark.covariance))
     points_.fail(fmt::format("a finite point, a covariance and sightings for landmark {}", id.value),
                  "others");
   return landmark;
 }
 
-std::shared_ptr<const ViewedKeyframe> MapView::keyframe(KeyframeId id) const {
+std::shared_ptr<const StoredKeyframe> StoredMap::keyframe(KeyframeId id) const {
   require(id.valid() && id.index() < poses_.size(), "the keyframe is in the map");
   if (auto found = cache_->find(id)) return found;
-  auto read =
-      std::make_shared<const ViewedKeyframe>(viewed(read_frame_file(folder_, info_, id), poses_[id.index()]));
+  auto read = std::make_shared<const StoredKeyframe>(
+      stored_keyframe(read_frame_file(folder_, info_, id), poses_[id.index()]));
   cache_->add(id, read);
   return read;
 }
 
-std::uint64_t MapView::touched_bytes() const {
+std::uint64_t StoredMap::touched_bytes() const {
   return points_.touched_bytes() + places_.touched_bytes();
 }
 
-void MapView::check() const {
+void StoredMap::check() const {
   check_map_text(folder_, info_, kPosesFile);
   check_map_text(folder_, info_, kUvlistFile);
   check_sealed_file(folder_ / kPointFile, kPointKind, info_.checksum_of(kPointFile));

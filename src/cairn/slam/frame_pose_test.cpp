@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/tracked_frame.h"
+#include "cairn/slam/frame_pose.h"
 
 #include <gtest/gtest.h>
 
@@ -35,10 +35,10 @@ struct Scene {
   Rigid3 truth{rotation_exp({0.01, 0.04, 0}), {0.15, 0.02, -0.1}};
   testkit::MapMaker maker;
   testkit::View seen;
-  std::vector<FoundPoint> found;  // all of them right
+  std::vector<Correspondence> found;  // all of them right
 };
 
-double pose_error(const TrackedFrame& tracked, const Scene& scene) {
+double pose_error(const FramePose& tracked, const Scene& scene) {
   return motion_norm(tracked.world_from_camera.inverse() * scene.truth);
 }
 
@@ -46,7 +46,7 @@ TEST(SolvePose, finds_the_pose_among_wrong_pairs) {
   Scene scene;
   const std::size_t wrong = scene.found.size() / 4;
   for (std::size_t i = 0; i + 1 < wrong; ++i) std::swap(scene.found[i].feature, scene.found[i + 1].feature);
-  TrackedFrame tracked;
+  FramePose tracked;
   ASSERT_TRUE(solve_pose(scene.view_from({}), scene.found, kMinInliers, tracked));
   EXPECT_LT(pose_error(tracked, scene), 1e-4);
   EXPECT_EQ(tracked.matches, static_cast<int>(scene.found.size()));
@@ -57,11 +57,11 @@ TEST(SolvePose, finds_the_pose_among_wrong_pairs) {
 TEST(SolvePose, keeps_the_landmarks_of_those_that_agree) {
   Scene scene;
   scene.found[5].point_in_world.x() += 0.3;
-  TrackedFrame tracked;
+  FramePose tracked;
   ASSERT_TRUE(solve_pose(scene.view_from({}), scene.found, kMinInliers, tracked));
   EXPECT_EQ(tracked.landmarks.size(), scene.seen.points.size());
   for (std::size_t i = 0; i < scene.found.size(); ++i) {
-    const FoundPoint& one = scene.found[i];
+    const Correspondence& one = scene.found[i];
     const LandmarkId shown = tracked.landmarks[static_cast<std::size_t>(one.feature)];
     EXPECT_EQ(shown, i == 5 ? LandmarkId{} : one.landmark);
   }
@@ -69,10 +69,10 @@ TEST(SolvePose, keeps_the_landmarks_of_those_that_agree) {
 
 TEST(SolvePose, leaves_the_frame_alone_where_too_few_agree) {
   const Scene scene;
-  TrackedFrame tracked;
+  FramePose tracked;
   tracked.world_from_camera = testkit::aside(3);
   tracked.inliers = 7;
-  const std::span<const FoundPoint> few(scene.found.data(), kMinInliers - 1);
+  const std::span<const Correspondence> few(scene.found.data(), kMinInliers - 1);
   EXPECT_FALSE(solve_pose(scene.view_from({}), few, kMinInliers, tracked));
   EXPECT_FALSE(solve_pose(scene.view_from({}), {}, kMinInliers, tracked));
   EXPECT_EQ(tracked.world_from_camera.translation.x(), 3);
@@ -83,7 +83,7 @@ TEST(SolvePose, leaves_the_frame_alone_where_too_few_agree) {
 /// From a tenth of the landmarks and a pose that is a pixel off to all of them and a better one.
 TEST(RefineInMap, finds_the_rest_of_the_landmarks) {
   const Scene scene(0.3);
-  TrackedFrame tracked;
+  FramePose tracked;
   tracked.world_from_camera = perturb_left((Vector6d() << 0, 0.002, 0, 0, 0, 0).finished(), scene.truth);
   tracked.landmarks.resize(scene.seen.points.size());
   for (std::size_t i = 0; i < scene.found.size(); i += 10)
@@ -98,7 +98,7 @@ TEST(RefineInMap, a_feature_with_a_landmark_gets_no_second_one) {
   testkit::MapMaker maker(testkit::points_ahead(500, 2), 0);
   for (int k = 0; k < 2; ++k) (void)maker.add({});
   const testkit::View seen = maker.world.see({}, 2);
-  TrackedFrame tracked;
+  FramePose tracked;
   for (std::size_t i = 0; i < seen.points.size(); ++i) {
     const KeyframeId shown_by{static_cast<std::int32_t>(i % 2)};
     tracked.landmarks.push_back(maker.map[shown_by].landmarks[i]);
@@ -111,7 +111,7 @@ TEST(RefineInMap, a_feature_with_a_landmark_gets_no_second_one) {
 
 TEST(RefineInMap, leaves_the_frame_alone_where_the_map_has_nothing) {
   const Scene scene;
-  TrackedFrame tracked;
+  FramePose tracked;
   tracked.world_from_camera = scene.truth;
   tracked.landmarks.resize(scene.seen.points.size());
   EXPECT_FALSE(refine_in_map(scene.maker.map, scene.seen.observed, {}, tracked));

@@ -13,7 +13,7 @@
 namespace cairn {
 
 /// A landmark seen by camera number `camera`.
-struct LandmarkSighting {
+struct CameraObservation {
   std::int32_t camera = 0;
   Observation seen;
 };
@@ -27,35 +27,37 @@ struct PlacedCamera {
       : world_from_camera(pose.inverse().matrix3()), centre_in_world(pose.inverse().translation) {}
 };
 
-/// The sightings of one landmark, packed for the kernels. Points are here relative to the centre of the first
-/// sighting's camera, so that a world of thousands of kilometres costs no digits. Its memory is used again by
-/// the next landmark.
-class PackedSightings {
+/// The observations of one landmark, packed for the kernels. Points are here relative to the centre of the
+/// first observation's camera, so that a world of thousands of kilometres costs no digits. Its memory is used
+/// again by the next landmark.
+class PackedObservations {
  public:
   /// PreconditionError for a camera out of range or an observation that is not usable. The arguments outlive
-  /// what is done with the sightings.
-  void pack(const Rig& rig, std::span<const PlacedCamera> cameras, std::span<const LandmarkSighting> all);
+  /// what is done with the observations.
+  void pack(const Rig& rig, std::span<const PlacedCamera> cameras, std::span<const CameraObservation> all);
 
-  /// Takes the sighting in `slot` out; another one takes its slot.
+  /// Takes the observation in `slot` out; another one takes its slot.
   void drop(int slot);
 
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] int block_count() const { return (count_ + kSightingLanes - 1) / kSightingLanes; }
-  [[nodiscard]] const SightingBlock* blocks() const { return blocks_.data(); }
-  /// Which of all the sightings is in `slot`, below count().
-  [[nodiscard]] std::int32_t sighting(int slot) const { return sightings_[static_cast<std::size_t>(slot)]; }
+  [[nodiscard]] int block_count() const { return (count_ + kObservationLanes - 1) / kObservationLanes; }
+  [[nodiscard]] const ObservationBlock* blocks() const { return blocks_.data(); }
+  /// Which of all the observations is in `slot`, below count().
+  [[nodiscard]] std::int32_t observation(int slot) const {
+    return observations_[static_cast<std::size_t>(slot)];
+  }
   [[nodiscard]] const Eigen::Vector3d& origin_in_world() const { return origin_in_world_; }
 
  private:
   void put(const Rig& rig, const PlacedCamera& camera, const Observation& seen, int slot);
   void move(int from, int to);
-  /// Gives the slots of the last block that hold no sighting the axis and centre of the first one.
+  /// Gives the slots of the last block that hold no observation the axis and centre of the first one.
   void fill_up();
 
   int count_ = 0;
   Eigen::Vector3d origin_in_world_ = Eigen::Vector3d::Zero();
-  std::vector<SightingBlock> blocks_;
-  std::vector<std::int32_t> sightings_;
+  std::vector<ObservationBlock> blocks_;
+  std::vector<std::int32_t> observations_;
 };
 
 }  // namespace cairn

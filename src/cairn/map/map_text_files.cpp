@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/features/spread.h"
+#include "cairn/features/uniform_selection.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ class Grid {
         columns_(at_least_one(std::sqrt(cells * width / height))),
         rows_(at_least_one(cells / static_cast<double>(columns_))) {}
   [[nodiscard]] std::size_t count() const { return columns_ * rows_; }
-  [[nodiscard]] std::size_t cell_of(const ImagePlace& place) const {
+  [[nodiscard]] std::size_t cell_of(const PixelPosition& place) const {
     return index(static_cast<double>(place.v) / height_, rows_) * columns_ +
            index(static_cast<double>(place.u) / width_, columns_);
   }
@@ -37,7 +37,7 @@ class Grid {
 };
 
 /// Marks the strongest `granted` of each cell; how many these are.
-std::size_t grant(const Grid& grid, const std::vector<ImagePlace>& places, std::size_t granted,
+std::size_t grant(const Grid& grid, const std::vector<PixelPosition>& places, std::size_t granted,
                   std::vector<bool>& kept) {
   std::vector<std::size_t> taken(grid.count());
   std::size_t total = 0;
@@ -53,8 +53,8 @@ std::size_t grant(const Grid& grid, const std::vector<ImagePlace>& places, std::
 
 }  // namespace
 
-std::vector<std::size_t> select_spread(const std::vector<ImagePlace>& places, int width, int height,
-                                       std::size_t count) {
+std::vector<std::size_t> select_uniform(const std::vector<PixelPosition>& places, int width, int height,
+                                        std::size_t count) {
   std::vector<bool> kept(places.size(), places.size() <= count);
   std::size_t total = std::min(places.size(), count);
   if (places.size() > count) {

@@ -11,28 +11,28 @@
 
 namespace cairn {
 
-/// How far a Spool had come.
-struct SpoolState {
+/// How far a AppendFile had come.
+struct AppendFileState {
   std::uint64_t bytes = 0;
   std::uint32_t checksum = 0;  ///< CRC-32 of them
-  bool operator==(const SpoolState&) const = default;
+  bool operator==(const AppendFileState&) const = default;
 };
 
 /// A file that grows at its end and, after a crash, goes on from where its state was last taken. InputError
 /// where the disk does not do as it should.
-class Spool {
+class AppendFile {
  public:
   /// Begins anew; a file of that name is emptied.
-  explicit Spool(const std::filesystem::path& path);
+  explicit AppendFile(const std::filesystem::path& path);
   /// Goes on after `state`; what was appended later is cut off. InputError where the file is shorter.
-  Spool(const std::filesystem::path& path, const SpoolState& state);
-  ~Spool();
-  Spool(const Spool&) = delete;
-  Spool& operator=(const Spool&) = delete;
+  AppendFile(const std::filesystem::path& path, const AppendFileState& state);
+  ~AppendFile();
+  AppendFile(const AppendFile&) = delete;
+  AppendFile& operator=(const AppendFile&) = delete;
 
   void append(std::string_view bytes);
   /// Returns when everything that was appended is on the disk, also should the power fail.
-  [[nodiscard]] SpoolState sync();
+  [[nodiscard]] AppendFileState sync();
   /// Hands out all that was appended, in order and in pieces. InputError at the end where the file holds
   /// something else by now.
   void read(const std::function<void(std::string_view piece)>& take);

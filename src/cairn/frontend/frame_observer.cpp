@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/frontend/frontend.h"
+#include "cairn/frontend/frame_observer.h"
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
@@ -16,16 +16,16 @@ Calibration with_camera(Calibration calibration, const Camera& camera) {
 
 }  // namespace
 
-Frontend::Frontend(const Sequence& sequence, const ObserverOptions& options)
-    : Frontend(sequence, options, sequence.calibration.camera) {}
+FrameObserver::FrameObserver(const Sequence& sequence, const ObserverOptions& options)
+    : FrameObserver(sequence, options, sequence.calibration.camera) {}
 
-Frontend::Frontend(const Sequence& sequence, const ObserverOptions& options, const Camera& resized)
+FrameObserver::FrameObserver(const Sequence& sequence, const ObserverOptions& options, const Camera& resized)
     : loader_(sequence),
       width_(resized.width),
       height_(resized.height),
       observer_(with_camera(sequence.calibration, resized), options) {}
 
-Frame Frontend::resize(Frame frame) const {
+Frame FrameObserver::resize(Frame frame) const {
   if (frame.gray.width() == width_ && frame.gray.height() == height_) return frame;
   frame.gray = resize_image(frame.gray, width_, height_);
   if (!frame.right.empty()) frame.right = resize_image(frame.right, width_, height_);
@@ -33,19 +33,19 @@ Frame Frontend::resize(Frame frame) const {
   return frame;
 }
 
-Arrival Frontend::operator()(std::size_t index) const {
-  Arrival arrival;
+LoadedFrame FrameObserver::load(std::size_t index) const {
+  LoadedFrame loaded;
   Stopwatch watch;
   try {
     Frame frame = loader_.load({static_cast<std::int32_t>(index)});
-    arrival.decode_seconds = watch.lap();
-    arrival.observed = observer_.observe(resize(std::move(frame)));
-    arrival.feature_seconds = watch.lap();
+    loaded.decode_seconds = watch.lap();
+    loaded.observed = observer_.observe(resize(std::move(frame)));
+    loaded.feature_seconds = watch.lap();
   } catch (const InputError& error) {
-    arrival.error = error.what();
-    arrival.failure = std::current_exception();
+    loaded.error = error.what();
+    loaded.failure = std::current_exception();
   }
-  return arrival;
+  return loaded;
 }
 
 }  // namespace cairn

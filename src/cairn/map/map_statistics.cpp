@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/map_figures.h"
+#include "cairn/map/map_statistics.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include "cairn/map/indicators.h"
 #include "cairn/map/landmark_stream.h"
 #include "cairn/map/map_file.h"
-#include "cairn/map/map_texts.h"
+#include "cairn/map/map_text_files.h"
 #include "cairn/map/mapped_file.h"
 #include "cairn/map/place_layout.h"
 #include "cairn/map/uvlist.h"
@@ -29,17 +29,17 @@ constexpr const char* kLargestStd = "largest_std";
   throw InputError({path.string(), 0, std::move(expected), std::move(found), std::string(kMapRemedy)});
 }
 
-/// A set of sightings in 64 bits, whatever their order: the sum of a random number for each, so that frames/,
-/// which has them by keyframes, and Point.bin with Descriptor.bin, which have them by landmarks, can be
-/// compared without holding either.
-class SightingSet {
+/// A set of observations in 64 bits, whatever their order: the sum of a random number for each, so that
+/// frames/, which has them by keyframes, and Point.bin with Descriptor.bin, which have them by landmarks, can
+/// be compared without holding either.
+class ObservationSet {
  public:
-  void add(const Sighting& sighting, LandmarkId landmark, std::string_view descriptor) {
-    sum_ += Random(pair(sighting.keyframe.value, sighting.feature),
+  void add(const ObservationRef& observation, LandmarkId landmark, std::string_view descriptor) {
+    sum_ += Random(pair(observation.keyframe.value, observation.feature),
                    pair(landmark.value, static_cast<std::int32_t>(crc32(descriptor))))
                 .next();
   }
-  bool operator==(const SightingSet&) const = default;
+  bool operator==(const ObservationSet&) const = default;
 
  private:
   static std::uint64_t pair(std::int32_t high, std::int32_t low) {
@@ -49,8 +49,8 @@ class SightingSet {
 };
 
 /// Those that frames/ has.
-SightingSet read_frames(const fs::path& folder, const MapInfo& info) {
-  SightingSet shown;
+ObservationSet read_frames(const fs::path& folder, const MapInfo& info) {
+  ObservationSet shown;
   std::uint64_t features = 0;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(info.keyframes.size()); ++i) {
     const FrameFile frame = read_frame_file(folder, info, {i});
@@ -70,7 +70,7 @@ SightingSet read_frames(const fs::path& folder, const MapInfo& info) {
 /// Takes a landmark after the other and counts its indicators.
 class IndicatorCounter {
  public:
-  explicit IndicatorCounter(MapFigures& figures) : figures_(figures) {
+  explicit IndicatorCounter(MapStatistics& figures) : figures_(figures) {
     const std::vector<std::string>& columns = uvlist_columns();
     for (std::size_t i = kFirstIndicator; i < columns.size(); ++i) {
       figures.indicators.push_back({columns[i], {}});
@@ -82,7 +82,7 @@ class IndicatorCounter {
 
   void add(const StoredLandmark& landmark, const std::vector<double>& row) {
     const bool has_covariance = !landmark.covariance.isZero(0);
-    figures_.most_sightings = std::max(figures_.most_sightings, landmark.sightings);
+    figures_.most_observations = std::max(figures_.most_observations, landmark.observations);
     figures_.without_covariance += has_covariance ? 0 : 1;
     for (std::size_t i = 0; i < figures_.indicators.size(); ++i) {
       if (is_point_std_[i] && !has_covariance) continue;
@@ -93,21 +93,21 @@ class IndicatorCounter {
 
  private:
   static constexpr std::size_t kAfterStds = 4;  // where largest_std is: after frames std_x std_y std_z
-  MapFigures& figures_;
+  MapStatistics& figures_;
   std::vector<bool> is_point_std_;
 };
 
 /// Those that Point.bin and Descriptor.bin have; counts the landmarks' indicators.
-SightingSet read_landmarks(const fs::path& folder, MapFigures& figures) {
+ObservationSet read_landmarks(const fs::path& folder, MapStatistics& figures) {
   LandmarkStream landmarks(folder, figures.info);
-  SightingStream sightings(folder, figures.info);
+  ObservationStream observations(folder, figures.info);
   UvlistStream table(folder / kUvlistFile, figures.info.checksum_of(kUvlistFile));
   IndicatorCounter counter(figures);
-  SightingSet shown;
+  ObservationSet shown;
   for (std::int32_t i = 0; const auto landmark = landmarks.next(); ++i) {
-    for (std::uint32_t k = 0; k < landmark->sightings; ++k) {
-      const auto row = sightings.next();
-      shown.add(row->sighting, {i}, {row->descriptor, figures.info.descriptor.bytes});
+    for (std::uint32_t k = 0; k < landmark->observations; ++k) {
+      const auto row = observations.next();
+      shown.add(row->observation, {i}, {row->descriptor, figures.info.descriptor.bytes});
     }
     const std::vector<double>* row = table.next();
     if (row == nullptr || row->front() != i)
@@ -121,14 +121,15 @@ SightingSet read_landmarks(const fs::path& folder, MapFigures& figures) {
 
 }  // namespace
 
-MapFigures read_map_figures(const fs::path& map_folder) {
+MapStatistics read_map_statistics(const fs::path& map_folder) {
   const fs::path folder = require_map_folder(map_folder);
-  MapFigures figures;
+  MapStatistics figures;
   figures.info = read_map_info(folder / kMapInfoFile);
-  for (const KeyframeEntry& keyframe : figures.info.keyframes) ++figures.part_keyframes[keyframe.part];
+  for (const KeyframeEntry& keyframe : figures.info.keyframes)
+    ++figures.component_keyframes[keyframe.component];
   (void)read_map_poses(folder, figures.info);
   check_sealed_file(folder / kPlaceFile, kPlaceKind, figures.info.checksum_of(kPlaceFile));
-  const SightingSet shown = read_frames(folder, figures.info);
+  const ObservationSet shown = read_frames(folder, figures.info);
   if (shown != read_landmarks(folder, figures))
     fail(folder / kPointFile, "the sightings that frames/ has, with their descriptors", "others");
   return figures;

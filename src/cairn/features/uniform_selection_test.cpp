@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/features/spread.h"
+#include "cairn/features/uniform_selection.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ namespace cairn {
 namespace {
 
 /// The first nine tenths are in the upper left quarter.
-std::vector<ImagePlace> crowd(std::size_t count) {
+std::vector<PixelPosition> crowd(std::size_t count) {
   Random random(1);
-  std::vector<ImagePlace> places;
+  std::vector<PixelPosition> places;
   for (std::size_t i = 0; i < count; ++i) {
     const double side = i < count * 9 / 10 ? 100 : 200;
     places.push_back(
@@ -26,15 +26,15 @@ std::vector<ImagePlace> crowd(std::size_t count) {
 
 TEST(SelectSpread, keeps_all_where_all_are_wanted) {
   const auto places = crowd(20);
-  EXPECT_EQ(select_spread(places, 200, 200, 20).size(), 20U);
-  EXPECT_EQ(select_spread(places, 200, 200, 1000).size(), 20U);
-  EXPECT_TRUE(select_spread({}, 200, 200, 10).empty());
-  EXPECT_TRUE(select_spread(places, 200, 200, 0).empty());
+  EXPECT_EQ(select_uniform(places, 200, 200, 20).size(), 20U);
+  EXPECT_EQ(select_uniform(places, 200, 200, 1000).size(), 20U);
+  EXPECT_TRUE(select_uniform({}, 200, 200, 10).empty());
+  EXPECT_TRUE(select_uniform(places, 200, 200, 0).empty());
 }
 
 TEST(SelectSpread, leaves_room_for_the_lonely_and_keeps_the_strongest) {
   const auto places = crowd(2000);
-  const auto selected = select_spread(places, 200, 200, 200);
+  const auto selected = select_uniform(places, 200, 200, 200);
   ASSERT_EQ(selected.size(), 200U);
   EXPECT_TRUE(std::is_sorted(selected.begin(), selected.end()));
   const auto lonely = std::count_if(selected.begin(), selected.end(),
@@ -44,8 +44,8 @@ TEST(SelectSpread, leaves_room_for_the_lonely_and_keeps_the_strongest) {
 }
 
 TEST(SelectSpread, one_place_may_have_all) {
-  const std::vector<ImagePlace> same(50, ImagePlace{10, 10});
-  EXPECT_EQ(select_spread(same, 100, 100, 3), (std::vector<std::size_t>{0, 1, 2}));
+  const std::vector<PixelPosition> same(50, PixelPosition{10, 10});
+  EXPECT_EQ(select_uniform(same, 100, 100, 3), (std::vector<std::size_t>{0, 1, 2}));
 }
 
 }  // namespace

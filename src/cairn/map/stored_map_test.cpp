@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/map_view.h"
+#include "cairn/map/stored_map.h"
 
 #include <gtest/gtest.h>
 
@@ -25,12 +25,12 @@ using testkit::TemporaryFolder;
 
 namespace fs = std::filesystem;
 
-TEST(MapView, has_what_the_whole_reader_has) {
+TEST(StoredMap, has_what_the_whole_reader_has) {
   const TemporaryFolder folder;
   const Map written = scene_map();
   write_map(folder.path(), written, scene_covariances(written));
   const Map map = read_map(folder.path());
-  const MapView view(folder.path());
+  const StoredMap view(folder.path());
   EXPECT_EQ(view.info().descriptor.name, "AKAZE");
   ASSERT_EQ(view.poses().size(), map.keyframes().size());
   for (const Landmark& landmark : map.landmarks()) {
@@ -38,8 +38,9 @@ TEST(MapView, has_what_the_whole_reader_has) {
     EXPECT_EQ(stored.point_in_world, landmark.point_in_world);
     EXPECT_EQ(stored.covariance, read_covariances(folder.path())[landmark.id.index()]);
     std::vector<std::int32_t> keyframes;
-    for (const Sighting& sighting : landmark.sightings) keyframes.push_back(sighting.keyframe.value);
-    const auto found = view.places().keyframes(stored.first_row, stored.sightings);
+    for (const ObservationRef& observation : landmark.observations)
+      keyframes.push_back(observation.keyframe.value);
+    const auto found = view.places().keyframes(stored.first_row, stored.observations);
     EXPECT_EQ(std::vector(found.begin(), found.end()), keyframes);
   }
   for (const Keyframe& keyframe : map.keyframes()) {
@@ -62,16 +63,16 @@ TEST(MapView, has_what_the_whole_reader_has) {
   EXPECT_THROW((void)view.keyframe({-1}), PreconditionError);
 }
 
-TEST(MapView, the_main_part_has_the_most_keyframes) {
+TEST(StoredMap, the_main_component_has_the_most_keyframes) {
   Random random(3);
   Map map(kSceneRig, "ORB");
   for (int k = 0; k < 5; ++k)
     map.add_keyframe(observe_points({{0, 0, 3}}, {}, 32, random), {}, {}, k == 0 || k == 4 ? 0 : 7);
   const TemporaryFolder folder;
   write_map(folder.path(), map);
-  const MapView view(folder.path());
-  EXPECT_FALSE(view.in_main_part({0}));
-  EXPECT_TRUE(view.in_main_part({1}));
+  const StoredMap view(folder.path());
+  EXPECT_FALSE(view.in_main_component({0}));
+  EXPECT_TRUE(view.in_main_component({1}));
 }
 
 void flip_bit(const fs::path& file, std::size_t byte) {
@@ -82,10 +83,10 @@ void flip_bit(const fs::path& file, std::size_t byte) {
   stream.put(static_cast<char>(flipped));
 }
 
-TEST(MapView, finds_flipped_bits_in_all_files) {
+TEST(StoredMap, finds_flipped_bits_in_all_files) {
   const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
-  const auto open_and_check = [&] { MapView(folder.path()).check(); };
+  const auto open_and_check = [&] { StoredMap(folder.path()).check(); };
   for (const auto& [name, contents] : contents_of(folder.path())) {
     if (name == ".cairn") continue;  // the marker for whoever writes
     for (std::size_t i = 0; i < contents.size(); i += 1 + contents.size() / 60) {
@@ -97,37 +98,37 @@ TEST(MapView, finds_flipped_bits_in_all_files) {
   EXPECT_NO_THROW(open_and_check());
 }
 
-TEST(MapView, what_is_touched_is_checked) {
+TEST(StoredMap, what_is_touched_is_checked) {
   const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   constexpr std::size_t kCovarianceOfLandmark2 = 24 + 2 * 112 + 50;
   flip_bit(folder.path() / kPointFile, kCovarianceOfLandmark2);
-  const MapView view(folder.path());
+  const StoredMap view(folder.path());
   EXPECT_THROW((void)view.landmark({2}), InputError);
 }
 
-TEST(MapView, finds_every_missing_or_truncated_file) {
+TEST(StoredMap, finds_every_missing_or_truncated_file) {
   const TemporaryFolder folder;
   write_map(folder.path(), scene_map());
   for (const auto& [name, contents] : contents_of(folder.path())) {
     if (name == ".cairn") continue;
     fs::remove(folder.path() / name);
-    EXPECT_THROW(MapView(folder.path()).check(), InputError) << name;
+    EXPECT_THROW(StoredMap(folder.path()).check(), InputError) << name;
     for (const std::size_t size :
          {std::size_t{0}, std::size_t{5}, contents.size() / 2, contents.size() - 1}) {
       write_file(folder.path() / name, contents.substr(0, size));
-      EXPECT_THROW(MapView(folder.path()).check(), InputError) << name << " " << size;
+      EXPECT_THROW(StoredMap(folder.path()).check(), InputError) << name << " " << size;
     }
     write_file(folder.path() / name, contents);
   }
 }
 
-TEST(MapView, a_map_without_landmarks_can_be_viewed) {
+TEST(StoredMap, a_map_without_landmarks_can_be_viewed) {
   Map map(kSceneRig, "SIFT");
   map.add_keyframe({}, {}, {}, 0);
   const TemporaryFolder folder;
   write_map(folder.path(), map);
-  const MapView view(folder.path());
+  const StoredMap view(folder.path());
   EXPECT_TRUE(view.keyframe({0})->landmarks.empty());
   EXPECT_NO_THROW(view.check());
 }

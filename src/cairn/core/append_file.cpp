@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/core/spool.h"
+#include "cairn/core/append_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::uint64_t size_of(const fs::path& path) {
   return error ? 0 : size;
 }
 
-void cut(const fs::path& path, const SpoolState& state) {
+void cut(const fs::path& path, const AppendFileState& state) {
   if (const std::uint64_t found = size_of(path); found < state.bytes)
     throw InputError({path.string(), 0, fmt::format("at least {} bytes to go on from", state.bytes),
                       fmt::format("{}", found), kRemedy});
@@ -36,43 +36,43 @@ void cut(const fs::path& path, const SpoolState& state) {
 
 }  // namespace
 
-Spool::Spool(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "w+b")) {
+AppendFile::AppendFile(const fs::path& path) : path_(path), file_(std::fopen(path.c_str(), "w+b")) {
   if (file_ == nullptr) fail("create the file");
 }
 
-Spool::Spool(const fs::path& path, const SpoolState& state)
+AppendFile::AppendFile(const fs::path& path, const AppendFileState& state)
     : path_(path), bytes_(state.bytes), checksum_(state.checksum) {
   cut(path, state);
   file_ = std::fopen(path.c_str(), "a+b");
   if (file_ == nullptr) fail("open the file");
 }
 
-Spool::~Spool() {
+AppendFile::~AppendFile() {
   if (file_ != nullptr) std::fclose(file_);
 }
 
-void Spool::fail(std::string_view doing) const {
+void AppendFile::fail(std::string_view doing) const {
   fail_writing(path_, doing, errno);
 }
 
-void Spool::append(std::string_view bytes) {
+void AppendFile::append(std::string_view bytes) {
   if (bytes.empty()) return;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail("write the file");
   bytes_ += bytes.size();
   checksum_.add(bytes);
 }
 
-void Spool::flush() {
+void AppendFile::flush() {
   if (std::fflush(file_) != 0) fail("write the file");
 }
 
-SpoolState Spool::sync() {
+AppendFileState AppendFile::sync() {
   flush();
   if (::fdatasync(::fileno(file_)) != 0) fail("write the file");
   return {bytes_, checksum_.value()};
 }
 
-void Spool::read(const std::function<void(std::string_view piece)>& take) {
+void AppendFile::read(const std::function<void(std::string_view piece)>& take) {
   flush();
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   std::vector<char> piece(kPiece);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/frontend/frontend.h"
+#include "cairn/frontend/frame_observer.h"
 
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ class FrontendTest : public testing::Test, protected RecordingFolder {
   [[nodiscard]] std::vector<Observation> observed_at_half_size() const {
     const Sequence sequence = open_sequence(folder_);
     const Camera half = resized_camera(sequence.calibration.camera, kWidth / 2, kHeight / 2);
-    const Frontend frontend(sequence, ObserverOptions(), half);
-    const Arrival arrival = frontend(0);
-    EXPECT_EQ(arrival.error, "");
-    for (const Keypoint& keypoint : arrival.observed.features.keypoints) {
+    const FrameObserver observer(sequence, ObserverOptions(), half);
+    const LoadedFrame loaded = observer.load(0);
+    EXPECT_EQ(loaded.error, "");
+    for (const Keypoint& keypoint : loaded.observed.features.keypoints) {
       EXPECT_LT(keypoint.u, kWidth / 2);
       EXPECT_LT(keypoint.v, kHeight / 2);
     }
-    return arrival.observed.observations;
+    return loaded.observed.observations;
   }
   [[nodiscard]] static std::string camera_yaml() {
     return "camera: {width: 640, height: 480, fx: 500, fy: 500, cx: 319.5, cy: 239.5}\n";

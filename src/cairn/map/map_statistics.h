@@ -19,10 +19,10 @@ struct IndicatorDistribution {
 };
 
 /// What a map holds, and how good its landmarks are.
-struct MapFigures {
+struct MapStatistics {
   MapInfo info;
-  std::map<std::int32_t, std::size_t> part_keyframes;  ///< by part
-  std::uint32_t most_sightings = 0;                    ///< of one landmark
+  std::map<std::int32_t, std::size_t> component_keyframes;  ///< by component
+  std::uint32_t most_observations = 0;                      ///< of one landmark
   std::uint32_t without_covariance =
       0;  ///< landmarks whose covariance was not computed: no "std" of theirs is counted
   std::vector<IndicatorDistribution> indicators;  ///< in the order of uvlist.txt
@@ -31,6 +31,6 @@ struct MapFigures {
 /// Reads all files of the map in `folder` once, piece by piece: the memory that it needs does not grow with
 /// the landmarks. InputError where a file is missing, damaged, of another version, or does not fit the
 /// others.
-[[nodiscard]] MapFigures read_map_figures(const std::filesystem::path& folder);
+[[nodiscard]] MapStatistics read_map_statistics(const std::filesystem::path& folder);
 
 }  // namespace cairn

@@ -9,7 +9,7 @@
 namespace cairn {
 
 /// A frame on its way from the disk to the tracker.
-struct Arrival {
+struct LoadedFrame {
   ObservedFrame observed;
   std::string error;           ///< not empty: it could not be decoded
   std::exception_ptr failure;  ///< the same, to be thrown again
@@ -17,12 +17,12 @@ struct Arrival {
 };
 
 /// Decodes and observes frames of a sequence, which must live as long; safe to call from several threads.
-class Frontend {
+class FrameObserver {
  public:
-  Frontend(const Sequence& sequence, const ObserverOptions& options);
+  FrameObserver(const Sequence& sequence, const ObserverOptions& options);
   /// Observes frames that are resized first: `resized` is the sequence's camera after resized_camera.
-  Frontend(const Sequence& sequence, const ObserverOptions& options, const Camera& resized);
-  [[nodiscard]] Arrival operator()(std::size_t index) const;
+  FrameObserver(const Sequence& sequence, const ObserverOptions& options, const Camera& resized);
+  [[nodiscard]] LoadedFrame load(std::size_t index) const;
 
  private:
   [[nodiscard]] Frame resize(Frame frame) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/map/map_figures.h"
+#include "cairn/map/map_statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -19,20 +19,20 @@ using testkit::scene_covariances;
 using testkit::scene_map;
 using testkit::TemporaryFolder;
 
-const Distribution& indicator(const MapFigures& figures, const std::string& name) {
+const Distribution& indicator(const MapStatistics& figures, const std::string& name) {
   const auto found = std::find_if(figures.indicators.begin(), figures.indicators.end(),
                                   [&](const IndicatorDistribution& any) { return any.name == name; });
   EXPECT_NE(found, figures.indicators.end()) << name;
   return found->values;
 }
 
-TEST(MapFigures, counts_what_the_map_holds) {
+TEST(MapStatistics, counts_what_the_map_holds) {
   const TemporaryFolder folder;
   write_map(folder.path() / "map", scene_map());
-  const MapFigures figures = read_map_figures(folder.path() / "map");
+  const MapStatistics figures = read_map_statistics(folder.path() / "map");
   EXPECT_EQ(figures.info.landmarks, 8U);
-  EXPECT_EQ(figures.part_keyframes, (std::map<std::int32_t, std::size_t>{{0, 2}, {1, 2}}));
-  EXPECT_EQ(figures.most_sightings, 3U);
+  EXPECT_EQ(figures.component_keyframes, (std::map<std::int32_t, std::size_t>{{0, 2}, {1, 2}}));
+  EXPECT_EQ(figures.most_observations, 3U);
   EXPECT_EQ(figures.without_covariance, 8U);
   EXPECT_EQ(indicator(figures, "frames").count(), 8U);
   EXPECT_EQ(indicator(figures, "frames").max(), 3);
@@ -41,12 +41,12 @@ TEST(MapFigures, counts_what_the_map_holds) {
   EXPECT_GT(indicator(figures, "rms_px").min(), 0);
 }
 
-TEST(MapFigures, has_each_indicator_in_the_order_of_the_table) {
+TEST(MapStatistics, has_each_indicator_in_the_order_of_the_table) {
   const TemporaryFolder folder;
   const Map map = scene_map();
   const std::vector<Eigen::Matrix3d> covariances = scene_covariances(map);
   write_map(folder.path() / "map", map, covariances);
-  const MapFigures figures = read_map_figures(folder.path() / "map");
+  const MapStatistics figures = read_map_statistics(folder.path() / "map");
   std::vector<std::string> names = uvlist_columns();
   names.erase(names.begin(), names.begin() + 4);
   names.insert(names.begin() + 4, "largest_std");

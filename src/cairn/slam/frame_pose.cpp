@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/tracked_frame.h"
+#include "cairn/slam/frame_pose.h"
 
 #include <algorithm>
 
@@ -10,8 +10,8 @@ namespace cairn {
 namespace {
 
 /// The landmarks that a frame shows already, as found points.
-std::vector<FoundPoint> points_seen(const Map& map, const TrackedFrame& tracked) {
-  std::vector<FoundPoint> seen;
+std::vector<Correspondence> points_seen(const Map& map, const FramePose& tracked) {
+  std::vector<Correspondence> seen;
   for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {
     const LandmarkId id = tracked.landmarks[i];
     if (id.valid() && !map[id].erased())
@@ -20,7 +20,7 @@ std::vector<FoundPoint> points_seen(const Map& map, const TrackedFrame& tracked)
   return seen;
 }
 
-std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tracked,
+std::vector<LandmarkId> landmarks_around(const Map& map, const FramePose& tracked,
                                          const SlamOptions& options) {
   const auto keyframes =
       local_keyframes(map, tracked.landmarks, static_cast<std::size_t>(options.tracking.local_keyframes),
@@ -34,11 +34,11 @@ std::vector<LandmarkId> landmarks_around(const Map& map, const TrackedFrame& tra
 
 }  // namespace
 
-bool solve_pose(const PosedFrame& view, std::span<const FoundPoint> found, int min_inliers,
-                TrackedFrame& tracked) {
+bool solve_pose(const PosedFrame& view, std::span<const Correspondence> found, int min_inliers,
+                FramePose& tracked) {
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
-  for (const FoundPoint& one : found) {
+  for (const Correspondence& one : found) {
     points.push_back(one.point_in_world);
     seen.push_back(view.observed.observations[static_cast<std::size_t>(one.feature)]);
   }
@@ -49,7 +49,7 @@ bool solve_pose(const PosedFrame& view, std::span<const FoundPoint> found, int m
   tracked.world_from_camera = pose.camera_from_world.inverse();
   tracked.landmarks.assign(view.observed.observations.size(), LandmarkId{});
   for (const std::int32_t i : pose.inliers) {
-    const FoundPoint& one = found[static_cast<std::size_t>(i)];
+    const Correspondence& one = found[static_cast<std::size_t>(i)];
     tracked.landmarks[static_cast<std::size_t>(one.feature)] = one.landmark;
   }
   tracked.matches = static_cast<int>(found.size());
@@ -58,7 +58,7 @@ bool solve_pose(const PosedFrame& view, std::span<const FoundPoint> found, int m
 }
 
 bool refine_in_map(const Map& map, const ObservedFrame& observed, const SlamOptions& options,
-                   TrackedFrame& tracked) {
+                   FramePose& tracked) {
   const PosedFrame view{map.rig(), observed, tracked.world_from_camera.inverse()};
   const auto around = landmarks_around(map, tracked, options);
   auto found = points_seen(map, tracked);
