@@ -7,15 +7,15 @@
 #include <cmath>
 
 #include "cairn/features/extractor.h"
-#include "cairn/features/matching.h"
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
+#include "cairn/matching/matching.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/simulate_room.h"
-#include "cairn/sequence/simulate_street.h"
+#include "cairn/simulate/simulate_room.h"
+#include "cairn/simulate/simulate_street.h"
 #include "features.h"
 
 namespace cairn::bench {

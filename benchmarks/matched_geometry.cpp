@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "matched_geometry.h"
 
-#include "cairn/features/matching.h"
+#include "cairn/matching/matching.h"
 
 namespace cairn::bench {
 

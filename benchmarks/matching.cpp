@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/features/matching.h"
+#include "cairn/matching/matching.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "cairn/features/extractor.h"
-#include "cairn/features/stereo_matching.h"
+#include "cairn/matching/stereo_matching.h"
 #include "features.h"
 
 namespace cairn::bench {

@@ -8,7 +8,7 @@
 
 #include "cairn/core/random.h"
 #include "cairn/features/extractor.h"
-#include "cairn/features/place_index.h"
+#include "cairn/places/place_index.h"
 #include "features.h"
 
 namespace cairn::bench {

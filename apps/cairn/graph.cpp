@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cairn/core/file.h"
-#include "cairn/map/g2o_file.h"
+#include "cairn/map_files/g2o_file.h"
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "cairn/report/graph_report.h"
 #include "commands.h"

@@ -5,8 +5,8 @@
 #include <exception>
 
 #include "cairn/core/error.h"
-#include "cairn/map/map_file.h"
-#include "cairn/map/map_statistics.h"
+#include "cairn/map_files/map_file.h"
+#include "cairn/map_files/map_statistics.h"
 #include "cairn/report/map_report.h"
 #include "cairn/report/sequence_report.h"
 #include "cairn/sequence/skipped_frames.h"

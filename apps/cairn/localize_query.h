@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cairn/localize/options.h"
-#include "cairn/map/map_info.h"
+#include "cairn/map_files/map_info.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn::app {

@@ -3,8 +3,8 @@
 
 #include "cairn/core/file.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/map/colmap_export.h"
-#include "cairn/map/colmap_sources.h"
+#include "cairn/map_files/colmap_export.h"
+#include "cairn/map_files/colmap_sources.h"
 #include "cairn/report/landmark_ply.h"
 #include "cairn/report/survey_report.h"
 #include "cairn/sequence/given_poses.h"

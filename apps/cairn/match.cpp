@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cairn/core/file.h"
-#include "cairn/features/matching.h"
 #include "cairn/image/codec.h"
+#include "cairn/matching/matching.h"
 #include "cairn/report/feature_picture.h"
 #include "cairn/report/features_report.h"
 #include "commands.h"

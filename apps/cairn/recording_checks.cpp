@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording_checks.h"
 
-#include "cairn/frontend/depth_scale.h"
-#include "cairn/frontend/pair_order.h"
+#include "cairn/observe/depth_scale.h"
+#include "cairn/observe/pair_order.h"
 
 namespace cairn::app {
 

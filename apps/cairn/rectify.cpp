@@ -5,7 +5,7 @@
 
 #include "cairn/core/file.h"
 #include "cairn/report/recording_report.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/simulate/write_kitti.h"
 #include "commands.h"
 #include "common.h"
 #include "recording_checks.h"

@@ -5,8 +5,8 @@
 
 #include "cairn/core/file.h"
 #include "cairn/report/recording_report.h"
-#include "cairn/sequence/write_kitti.h"
-#include "cairn/sequence/write_tum.h"
+#include "cairn/simulate/write_kitti.h"
+#include "cairn/simulate/write_tum.h"
 #include "commands.h"
 #include "common.h"
 

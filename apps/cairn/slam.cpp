@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "cairn/core/file.h"
-#include "cairn/map/map_file.h"
+#include "cairn/map_files/map_file.h"
 #include "cairn/report/slam_report.h"
 #include "commands.h"
 #include "common.h"

@@ -9,10 +9,10 @@
 
 #include "cairn/core/random.h"
 #include "cairn/features/extractor.h"
-#include "cairn/features/guided_matching.h"
-#include "cairn/features/matching.h"
 #include "cairn/features/orb.h"
-#include "cairn/features/stereo_matching.h"
+#include "cairn/matching/guided_matching.h"
+#include "cairn/matching/matching.h"
+#include "cairn/matching/stereo_matching.h"
 
 namespace cairn {
 namespace {

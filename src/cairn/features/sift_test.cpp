@@ -11,9 +11,9 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/random.h"
-#include "cairn/features/matching.h"
 #include "cairn/features/sift_descriptor.h"
 #include "cairn/features/sift_orientation.h"
+#include "cairn/matching/matching.h"
 
 namespace cairn {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/observe_frames.h"
 #include "cairn/localize/motion_check.h"
+#include "cairn/observe/observe_frames.h"
 
 namespace cairn {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
-#include "cairn/frontend/frame_observer.h"
 #include "cairn/localize/localizer.h"
+#include "cairn/observe/frame_observer.h"
 #include "cairn/sequence/sequence.h"
 
 namespace cairn {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
-#include "cairn/map/stored_map.h"
+#include "cairn/map_files/stored_map.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/survey.h"
 #include "cairn/testing/core/temporary_folder.h"

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "cairn/frontend/guided_search.h"
+#include "cairn/observe/guided_search.h"
 
 namespace cairn {
 namespace {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "cairn/frontend/prediction.h"
 #include "cairn/map/observed_frame.h"
-#include "cairn/map/stored_map.h"
+#include "cairn/map_files/stored_map.h"
+#include "cairn/observe/prediction.h"
 
 namespace cairn {
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "cairn/core/parameter.h"
-#include "cairn/frontend/observer.h"
 #include "cairn/geometry/rig.h"
-#include "cairn/map/map_info.h"
+#include "cairn/map_files/map_info.h"
+#include "cairn/observe/observer.h"
 
 namespace cairn {
 

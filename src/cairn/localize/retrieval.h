@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cairn/features/place_index.h"
-#include "cairn/map/stored_map.h"
+#include "cairn/map_files/stored_map.h"
+#include "cairn/places/place_index.h"
 
 namespace cairn {
 

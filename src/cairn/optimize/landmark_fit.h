@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cairn/features/kernels/instruction_set.h"
 #include "cairn/optimize/packed_observations.h"
+#include "cairn/simd/instruction_set.h"
 
 namespace cairn {
 

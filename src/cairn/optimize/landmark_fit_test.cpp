@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "cairn/core/error.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 #include "cairn/testing/optimize/landmark_scene.h"
 
 namespace cairn {

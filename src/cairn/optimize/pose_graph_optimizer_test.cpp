@@ -11,7 +11,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/random.h"
-#include "cairn/map/g2o_file.h"
+#include "cairn/map_files/g2o_file.h"
 #include "cairn/optimize/pose_graph_residual.h"
 
 namespace cairn {

@@ -4,8 +4,8 @@
 #include <span>
 
 #include "cairn/features/features.h"
-#include "cairn/features/matching.h"
 #include "cairn/image/image.h"
+#include "cairn/matching/matching.h"
 
 namespace cairn {
 

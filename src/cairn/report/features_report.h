@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cairn/features/features.h"
-#include "cairn/features/matching.h"
 #include "cairn/image/image.h"
+#include "cairn/matching/matching.h"
 
 namespace cairn {
 

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "cairn/core/distribution.h"
-#include "cairn/map/landmark_stream.h"
-#include "cairn/map/map_file.h"
-#include "cairn/map/map_text_files.h"
+#include "cairn/map_files/landmark_stream.h"
+#include "cairn/map_files/map_file.h"
+#include "cairn/map_files/map_text_files.h"
 #include "cairn/report/colors.h"
 #include "cairn/report/landmark_layer.h"
 #include "cairn/report/lettering.h"

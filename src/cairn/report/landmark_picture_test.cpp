@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "cairn/core/random.h"
-#include "cairn/map/map_file.h"
+#include "cairn/map_files/map_file.h"
 #include "cairn/report/colors.h"
 #include "cairn/testing/core/temporary_folder.h"
-#include "cairn/testing/map/scene_map.h"
+#include "cairn/testing/map_files/scene_map.h"
 
 namespace cairn {
 namespace {

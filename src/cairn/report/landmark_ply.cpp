@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "cairn/core/file.h"
-#include "cairn/map/landmark_stream.h"
-#include "cairn/map/map_file.h"
+#include "cairn/map_files/landmark_stream.h"
+#include "cairn/map_files/map_file.h"
 #include "cairn/report/colors.h"
 
 namespace cairn {

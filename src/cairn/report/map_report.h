@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cairn/map/map_statistics.h"
+#include "cairn/map_files/map_statistics.h"
 
 namespace cairn {
 

@@ -66,7 +66,8 @@ TEST(MapReport, tells_the_origin_and_unknown_covariances) {
 
 TEST(MapReport, has_no_indicators_of_an_empty_map) {
   MapStatistics figures = small_map();
-  figures.info.landmarks = figures.info.observations = 0;
+  figures.info.landmarks = 0;
+  figures.info.observations = 0;
   EXPECT_EQ(format_map_text("map", figures).find("indicator"), std::string::npos);
 }
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "cairn/sequence/simulation_writer.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/simulate/simulation_writer.h"
+#include "cairn/simulate/write_kitti.h"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include "cairn/core/file.h"
 #include "cairn/image/codec.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/simulate/write_kitti.h"
 #include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "cairn/features/place_index.h"
 #include "cairn/map/map.h"
+#include "cairn/places/place_index.h"
 
 namespace cairn {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "cairn/frontend/guided_search.h"
 #include "cairn/map/map.h"
+#include "cairn/observe/guided_search.h"
 
 namespace cairn {
 

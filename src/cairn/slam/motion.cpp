@@ -6,7 +6,7 @@
 
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
-#include "cairn/features/matching.h"
+#include "cairn/matching/matching.h"
 
 namespace cairn {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cairn/map/map.h"
-#include "cairn/features/matching.h"
+#include "cairn/matching/matching.h"
 #include "cairn/slam/options.h"
 
 namespace cairn {

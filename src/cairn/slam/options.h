@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cairn/core/parameter.h"
-#include "cairn/frontend/observer.h"
+#include "cairn/observe/observer.h"
 
 namespace cairn {
 

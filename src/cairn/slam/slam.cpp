@@ -9,7 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/observe_frames.h"
+#include "cairn/observe/observe_frames.h"
 #include "cairn/slam/final_poses.h"
 #include "cairn/slam/mapper.h"
 #include "cairn/slam/mapping.h"

@@ -11,7 +11,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/progress.h"
 #include "cairn/image/codec.h"
-#include "cairn/map/g2o_file.h"
+#include "cairn/map_files/g2o_file.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/testing/core/temporary_folder.h"
 #include "cairn/testing/slam/small_room.h"

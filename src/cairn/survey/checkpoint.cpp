@@ -6,7 +6,7 @@
 #include "cairn/core/append_file.h"
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/map/binary_file.h"
+#include "cairn/map_files/binary_file.h"
 
 namespace cairn {
 namespace {

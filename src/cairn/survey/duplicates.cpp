@@ -9,7 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "cairn/features/matching.h"
+#include "cairn/matching/matching.h"
 #include "cairn/survey/cleaning.h"
 
 namespace cairn {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "cairn/frontend/prediction.h"
 #include "cairn/map/map.h"
+#include "cairn/observe/prediction.h"
 #include "cairn/sequence/given_poses.h"
 
 namespace cairn {

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "cairn/geometry/covariance.h"
-#include "cairn/map/frame_file.h"
+#include "cairn/map_files/frame_file.h"
 #include "cairn/optimize/landmark_fit.h"
 #include "cairn/survey/pose_smoothing.h"
 

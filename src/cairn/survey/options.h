@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cairn/core/parameter.h"
-#include "cairn/frontend/observer.h"
+#include "cairn/observe/observer.h"
 #include "cairn/optimize/landmark_fit.h"
 
 namespace cairn {

@@ -13,9 +13,9 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/median.h"
-#include "cairn/features/matching.h"
-#include "cairn/frontend/frame_observer.h"
 #include "cairn/geometry/pnp_ransac.h"
+#include "cairn/matching/matching.h"
+#include "cairn/observe/frame_observer.h"
 #include "cairn/survey/pose_readings.h"
 
 namespace cairn {

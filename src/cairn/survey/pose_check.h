@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cairn/core/executor.h"
-#include "cairn/frontend/observer.h"
+#include "cairn/observe/observer.h"
 #include "cairn/sequence/given_poses.h"
 
 namespace cairn {

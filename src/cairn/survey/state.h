@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cairn/map/map_writer.h"
+#include "cairn/map_files/map_writer.h"
 #include "cairn/survey/landmarks.h"
 #include "cairn/survey/survey.h"
 

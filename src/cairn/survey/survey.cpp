@@ -9,7 +9,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
-#include "cairn/frontend/observe_frames.h"
+#include "cairn/observe/observe_frames.h"
 #include "cairn/survey/checkpoint.h"
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/identity.h"

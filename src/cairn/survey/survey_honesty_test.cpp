@@ -13,7 +13,7 @@
 
 #include "cairn/core/random.h"
 #include "cairn/geometry/inlier_limits.h"
-#include "cairn/sequence/simulate_street.h"
+#include "cairn/simulate/simulate_street.h"
 #include "cairn/survey/landmarks.h"
 #include "cairn/survey/surveyor.h"
 

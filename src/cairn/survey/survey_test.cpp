@@ -13,10 +13,10 @@
 #include "cairn/core/random.h"
 #include "cairn/image/codec.h"
 #include "cairn/map/map.h"
-#include "cairn/map/map_file.h"
-#include "cairn/map/uvlist.h"
+#include "cairn/map_files/map_file.h"
+#include "cairn/map_files/uvlist.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/sequence/simulate_street.h"
+#include "cairn/simulate/simulate_street.h"
 #include "cairn/testing/core/temporary_folder.h"
 #include "cairn/testing/survey/street_survey.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "cairn/frontend/guided_search.h"
 #include "cairn/geometry/epipolar.h"
+#include "cairn/observe/guided_search.h"
 
 namespace cairn {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cairn/core/random.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 
 namespace cairn {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/kernels/corner_kernels.h"
 
-#include "cairn/features/kernels/byte_lanes.h"
+#include "cairn/simd/byte_lanes.h"
 
 namespace cairn::CAIRN_ISA {
 namespace {

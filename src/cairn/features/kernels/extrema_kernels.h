@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "cairn/features/kernels/dispatch.h"
+#include "cairn/simd/dispatch.h"
 
 namespace cairn {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cairn/core/random.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 
 namespace cairn {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cairn/features/kernels/dispatch.h"
+#include "cairn/simd/dispatch.h"
 
 namespace cairn {
 

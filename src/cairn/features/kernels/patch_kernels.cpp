@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/features/kernels/patch_kernels.h"
 
-#include "cairn/features/kernels/lanes.h"
+#include "cairn/simd/float_lanes.h"
 
 namespace cairn::CAIRN_ISA {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cairn/features/kernels/dispatch.h"
+#include "cairn/simd/dispatch.h"
 
 namespace cairn {
 

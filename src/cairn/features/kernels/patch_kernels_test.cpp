@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "cairn/core/random.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 
 namespace cairn {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/optimize/kernels/landmark_kernels.h"
 
-#include "cairn/optimize/kernels/double_lanes.h"
+#include "cairn/simd/double_lanes.h"
 
 namespace cairn::CAIRN_ISA {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cairn/core/random.h"
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 
 namespace cairn {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "cairn/features/kernels/available.h"
+#include "cairn/simd/available.h"
 
 namespace cairn::testkit {
 

@@ -11,7 +11,7 @@
 
 #include "cairn/core/random.h"
 #include "cairn/localize/localizer.h"
-#include "cairn/map/map_writer.h"
+#include "cairn/map_files/map_writer.h"
 #include "cairn/testing/geometry/random_points.h"
 
 namespace cairn::testkit {

@@ -6,8 +6,8 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
-#include "cairn/sequence/simulate_room.h"
-#include "cairn/sequence/write_tum.h"
+#include "cairn/simulate/simulate_room.h"
+#include "cairn/simulate/write_tum.h"
 
 namespace cairn::testkit {
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cairn/core/executor.h"
-#include "cairn/sequence/write_kitti.h"
+#include "cairn/simulate/write_kitti.h"
 
 namespace cairn::testkit {
 

@@ -13,7 +13,7 @@
 
 #include "cairn/core/progress.h"
 #include "cairn/sequence/given_poses.h"
-#include "cairn/sequence/simulate_street.h"
+#include "cairn/simulate/simulate_street.h"
 #include "cairn/survey/survey.h"
 #include "cairn/testing/core/temporary_folder.h"
 

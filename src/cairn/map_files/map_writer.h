@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cairn/core/append_file.h"
+#include "cairn/geometry/framed.h"
+#include "cairn/map/indicators.h"
+#include "cairn/map/map.h"
+#include "cairn/map_files/map_info.h"
+
+namespace cairn {
+
+/// A landmark that will not change any more.
+struct FinishedLandmark {
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      ///< of the point, square metres; 0: not known
+  std::vector<ObservationRef> observations;  ///< at least one; by keyframe, increasing, one for each
+  std::vector<Keypoint> keypoints;           ///< of each observation; only size and sigma are kept
+  Descriptors descriptors;                   ///< of each observation
+  LandmarkIndicators indicators;             ///< for its row in uvlist.txt
+};
+
+/// How far a MapWriter had come.
+struct MapWriterState {
+  static constexpr std::size_t kAppendFiles = 5;
+  std::array<AppendFileState, kAppendFiles> append_files;
+  std::int32_t frames = 0;
+  std::uint32_t landmarks = 0;
+  std::uint64_t features = 0, observations = 0;
+
+  void put(ByteWriter& writer) const;
+  [[nodiscard]] static MapWriterState get(BinaryReader& reader);
+};
+
+/// Writes the folder of a map, whose layout is docs/map_format.md, piece by piece: the memory it needs does
+/// not grow with the map, but for a thousandth of the files' size while they are put together at the end.
+///
+/// Frames come in order, and so do landmarks; a landmark may come before the frames that show it or after
+/// them. After a crash it goes on from where its state was last saved, and the same calls then end with the
+/// same bytes as without the crash.
+///
+/// InputError where the disk does not do as it should; PreconditionError for what no map can have.
+class MapWriter {
+ public:
+  /// Begins a map in `folder`, which exists. `header.descriptor` names one of descriptor_names(), and has the
+  /// descriptors' norm and bytes.
+  MapWriter(const std::filesystem::path& folder, const MapHeader& header);
+  /// Goes on in the folder where `state` was saved; what was written later is lost.
+  MapWriter(const std::filesystem::path& folder, const MapHeader& header, const MapWriterState& state);
+  ~MapWriter();
+
+  /// The next frame. Its feature i shows landmarks[i], a final number, or none where that is not valid.
+  /// Observations are finite, their sigmas and disparities above 0.
+  void add_frame(const ObservedFrame& observed, std::span<const LandmarkId> landmarks,
+                 const WorldFromCamera& world_from_camera, std::int32_t component = 0);
+  /// The next landmark.
+  void add_landmark(const FinishedLandmark& landmark);
+  [[nodiscard]] std::int32_t frames() const { return frames_; }
+  [[nodiscard]] std::uint32_t landmarks() const { return landmarks_; }
+
+  /// Returns when all that was added is on the disk.
+  [[nodiscard]] MapWriterState save();
+
+  /// Puts the files of the map together; there is a frame. To be called last. What it worked with stays in
+  /// the folder, so that a crash within it is none either: discard_spools once the map is not to be gone on
+  /// with.
+  void finish();
+  static void discard_spools(const std::filesystem::path& folder);
+
+ private:
+  enum class Part { points, observations, table, poses, keyframes };
+  [[nodiscard]] AppendFile& append_file(Part component) {
+    return *append_files_[static_cast<std::size_t>(component)];
+  }
+  void open_spools(const MapWriterState* state);
+  void remove_frames_from(std::int32_t first) const;
+  void write_binary(const char* name, const BinaryWriter& begin, Part component, MapInfo& info);
+  void write_text(const char* name, std::string_view begin, Part component, MapInfo& info);
+  void write_info(const MapInfo& info);
+
+  std::filesystem::path folder_;
+  MapHeader header_;
+  std::array<std::unique_ptr<AppendFile>, MapWriterState::kAppendFiles> append_files_;
+  std::vector<std::filesystem::path> unsaved_;  // frame files since the last save
+  std::int32_t frames_ = 0;
+  std::uint32_t landmarks_ = 0;
+  std::uint64_t features_ = 0, observations_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "cairn/simd/dispatch.h"
+
+namespace cairn {
+
+/// Farther than any distance.
+inline constexpr std::int32_t kNoDistance = std::numeric_limits<std::int32_t>::max();
+
+/// The two smallest of some distances and their places, or kNoDistance and -1 where there is none.
+struct TwoSmallest {
+  std::int32_t first = kNoDistance, first_at = -1;
+  std::int32_t second = kNoDistance, second_at = -1;
+};
+
+/// Smallest distances so far of some columns, each with the row that it is in.
+struct ColumnMinima {
+  std::int32_t* distances = nullptr;
+  std::int32_t* rows = nullptr;
+};
+
+/// Of equal distances the one at the lower place or row is the smaller. Distances are in [0, kNoDistance];
+/// kNoDistance is never found.
+struct NearestKernels {
+  /// The smallest only; the second stays unset. `count` is a multiple of 16.
+  TwoSmallest (*smallest)(const std::int32_t* distances, std::size_t count);
+  TwoSmallest (*two_smallest)(const std::int32_t* distances, std::size_t count);
+  /// Row r of `rows` rows lies at distances + r * count and is called first_row + r. Rows come in ascending
+  /// order, also over several calls.
+  void (*update_columns)(const std::int32_t* distances, std::size_t rows, std::size_t count,
+                         std::int32_t first_row, const ColumnMinima& minima);
+};
+
+CAIRN_KERNEL_TABLES(NearestKernels, kNearestKernels)
+
+/// The kernels for `set`, which is available.
+[[nodiscard]] inline const NearestKernels& nearest_kernels(InstructionSet set = default_instruction_set()) {
+  return CAIRN_CHOOSE_KERNELS(set, kNearestKernels);
+}
+
+}  // namespace cairn

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "cairn/simulate/simulate_room.h"
+#include "cairn/simulate/simulation_writer.h"
+
+namespace cairn {
+
+/// Writes a simulated room into a folder that exists, in the layout of the TUM RGB-D benchmark (Sturm et al.
+/// 2012): rgb.txt, depth.txt, associations.txt, groundtruth.txt (world_from_camera), rgb/ and depth/ named
+/// by their stamps, and camera.yaml. InputError where the disk refuses.
+SimulationReport write_tum(const SimulatedRoom& room, const std::filesystem::path& folder,
+                           const Executor& executor, Progress& progress);
+
+}  // namespace cairn
