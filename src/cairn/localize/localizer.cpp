@@ -13,7 +13,7 @@
 namespace cairn {
 namespace {
 
-/// What the pose is estimated from.
+/// Holds the correspondences from which the pose is estimated.
 struct MatchedPoints {
   std::vector<Eigen::Vector3d> points_in_world;
   std::vector<Observation> observations;
@@ -34,8 +34,8 @@ MatchedPoints points_of(const std::vector<LandmarkMatch>& matches) {
   return matched;
 }
 
-/// The observation with the landmark's own uncertainty added, as it looks from the distance at which the
-/// keyframe saw it: RANSAC has no pose yet to do better.
+/// Returns the observation with the landmark's own uncertainty added, as it appears from the distance at
+/// which the keyframe saw it: RANSAC has no pose yet to do better.
 Observation with_landmark_noise(const Rig& rig, const LandmarkMatch& match) {
   const double sigma = std::sqrt(match.covariance.trace() / 3) / match.distance;  // radians
   Observation noisy = match.seen;
@@ -72,7 +72,7 @@ int count_cells(const Localization& found, const QueryCamera& camera) {
   return static_cast<int>(cells.size());
 }
 
-/// Inliers whose match is also among those that were made by descriptor alone.
+/// Counts the inliers whose match is also among the first ones, which were made by descriptor.
 int count_independent(const Localization& found, const std::vector<LandmarkMatch>& by_descriptor) {
   int count = 0;
   for (const std::int32_t i : found.inliers) {
@@ -167,7 +167,7 @@ Localization Localizer::localize_anywhere(const ObservedFrame& observed) const {
   return best;
 }
 
-/// From first matches to a pose that is judged; `keyframes` are where they come from.
+/// Estimates and judges the pose from first matches, which come from `keyframes`.
 Localization Localizer::refine(const ObservedFrame& observed, const std::vector<LandmarkMatch>& matches,
                                Keyframes keyframes) const {
   Localization found;

@@ -11,49 +11,56 @@
 
 namespace cairn {
 
+/// Says how far the pose of an image can be trusted; none: no pose.
 enum class Verdict { none, weak, good };
 
-/// Why a pose is weak.
+/// Says why a pose is weak.
 enum class Weakness {
   nothing,
-  few_inliers,               ///< or too few that were found by descriptor alone
-  bad_geometry,              ///< inliers in a part of the image only, or a large dilution of precision
-  large_covariance,          ///< the protection level is beyond what is wanted
-  inconsistent_with_motion,  ///< with the poses before, or with the prior pose
+  few_inliers,       ///< too few inliers, or too few independent ones (Localization::independent)
+  bad_geometry,      ///< inliers in too small a part of the image, or too large a dilution of precision
+  large_covariance,  ///< a protection level above its limit
+  inconsistent_with_motion,  ///< contradicts the poses before
 };
 
+/// Returns "none", "weak" or "good".
 [[nodiscard]] std::string_view to_string(Verdict verdict);
+/// Returns the reason in words, such as "few inliers"; empty for Weakness::nothing.
 [[nodiscard]] std::string_view to_string(Weakness weakness);
 
-/// What is found out about one image. Without a pose all but the verdict and the counts mean nothing.
+/// Holds the result of localising one image. If there is no pose, only the verdict and the matches mean
+/// anything.
 struct Localization {
   Verdict verdict = Verdict::none;
   Weakness weakness = Weakness::nothing;
   CameraFromWorld camera_from_world;
   Precision precision;
-  std::vector<LandmarkMatch> matches;  ///< all that were compared with the pose
+  std::vector<LandmarkMatch> matches;  ///< matches that were compared with the pose
   std::vector<std::int32_t> inliers;   ///< positions in `matches`, increasing
-  int independent = 0;         ///< inliers of the matches by descriptor alone, which the pose was made of
-  int cells = 0;               ///< of 4 x 4 that the image is cut into, with an inlier
-  double variance_factor = 0;  ///< squared errors over expected ones
-  double rms_px = 0;           ///< of (u, v) over the inliers
-  bool from_prior = false;     ///< the prior pose led to it
+  int independent = 0;                 ///< inliers that are first matches, of which RANSAC made the pose
+  int cells = 0;                       ///< cells with an inlier, of 4 x 4 that the image is divided into
+  double variance_factor = 0;          ///< squared errors over expected ones, see PoseEstimate
+  double rms_px = 0;                   ///< RMS residual of (u, v) over the inliers
+  bool from_prior = false;             ///< whether it was found from the prior pose
 
   [[nodiscard]] bool found() const { return verdict != Verdict::none; }
 };
 
-/// Finds images in a map: frames that look alike (or a prior pose), matches with their landmarks, P3P in
-/// RANSAC, more matches around that pose, and the pose that explains them best by the noise of pixels and the
-/// covariances of landmarks. Poses are in the world of the map's largest component.
+/// Localises images in a map: finds keyframes that look alike (or are near a prior pose), matches the image
+/// with their landmarks, solves P3P in RANSAC, searches for more matches around that pose, and estimates the
+/// pose that explains them best, given the noise of pixels and the covariances of landmarks. Poses are in the
+/// world of the map's largest component.
 ///
-/// Made once for a map and a camera, which live as long; may then be used by several threads at once. What is
-/// found depends on the image, the prior and the seed alone.
+/// Holds a reference to the map, which must live as long. Safe to use from several threads at once. The
+/// result depends on the image, the prior and the seed alone.
 class Localizer {
  public:
+  /// Throws InputError for options out of range, and PreconditionError if the size or the focal lengths of
+  /// the camera are not known.
   Localizer(const StoredMap& map, const QueryCamera& camera, const LocalizeOptions& options);
 
-  /// `observed` is in the camera's rig. Where the prior pose does not lead to a good one, the whole map is
-  /// looked through.
+  /// Localises an image whose observations are of the camera's rig. Searches the whole map if the prior pose
+  /// does not lead to a good pose.
   [[nodiscard]] Localization localize(const ObservedFrame& observed,
                                       const std::optional<WorldFromCamera>& prior = {}) const;
 

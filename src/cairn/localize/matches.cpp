@@ -10,7 +10,7 @@
 namespace cairn {
 namespace {
 
-/// A match by descriptor.
+/// Holds a match by descriptor.
 struct Candidate {
   float distance;
   std::int32_t feature;
@@ -21,7 +21,7 @@ struct Candidate {
   }
 };
 
-/// The nearest first; each feature and each landmark once.
+/// Keeps the nearest match of each feature and of each landmark, by feature.
 std::vector<Candidate> keep_nearest(std::vector<Candidate> candidates, std::size_t features) {
   std::stable_sort(candidates.begin(), candidates.end());
   std::vector<char> taken(features, 0);

@@ -11,26 +11,27 @@
 
 namespace cairn {
 
-/// Feature `feature` of the image shows a landmark of the map.
+/// Says that feature `feature` of the image shows a landmark of the map.
 struct LandmarkMatch {
   std::int32_t feature = -1;
-  Observation seen;  ///< of the feature
+  Observation seen;  ///< observation of the feature
   LandmarkId landmark;
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the point, square metres; finite
-  double distance = 0;  ///< from the camera of the keyframe whose look was matched, metres
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of the point, square metres; finite
+  double distance = 0;  ///< of the point from the camera of the keyframe that was matched, metres
 };
 
 using Keyframes = std::vector<std::shared_ptr<const StoredKeyframe>>;
 
-/// Matches the image with what each keyframe shows: nearest by descriptor, mutual, and clearly nearer than
-/// the second (`max_ratio`). A landmark counts as it looks in any of them. Each feature and each landmark is
-/// in one match, the nearest; ordered by feature. Landmarks that nothing determines are left out.
+/// Matches the image with the landmarks that each keyframe shows: nearest by descriptor, mutual, and clearly
+/// nearer than the second (`max_ratio`). Keeps the nearest match of each feature and of each landmark, and
+/// leaves out landmarks whose covariance is not finite. Returns the matches by feature.
 [[nodiscard]] std::vector<LandmarkMatch> match_keyframes(const StoredMap& map, const Keyframes& keyframes,
                                                          const ObservedFrame& observed, double max_ratio);
 
-/// Matches of the landmarks that the keyframes show with features near the places where the pose has them,
-/// as far as `radius_px` at the lowest pyramid level. Otherwise as match_keyframes, without the ratio.
+/// Matches features with the landmarks that the keyframes show, within `radius_px` at the finest scale of
+/// where the pose predicts them. Keeps the nearest match of each feature and of each landmark, and leaves out
+/// landmarks whose covariance is not finite. Returns the matches by feature.
 [[nodiscard]] std::vector<LandmarkMatch> match_predicted_landmarks(const StoredMap& map,
                                                                    const Keyframes& keyframes,
                                                                    const PosedFrame& frame, double radius_px);

@@ -8,15 +8,16 @@
 
 namespace cairn {
 
-/// Whether the poses of images in a row can be those of one camera on its way: each has to lie where the two
-/// before it and a bounded acceleration a let it, at most a t12 (t12 + t01) / 2 away from where a steady
-/// motion leads (t01, t12: the times between the three), plus what a trusted pose may be off.
+/// Checks whether the poses of successive images can be those of one camera in motion. With the times t01 and
+/// t12 between three poses, the third must lie within a t12 (t12 + t01) / 2 of where a steady motion leads,
+/// for a bounded acceleration a, plus the error that is allowed for a trusted pose; for position and rotation
+/// each.
 class MotionCheck {
  public:
   explicit MotionCheck(const TrustOptions& options) : options_(options) {}
 
-  /// Calls a good pose weak where it does not fit. Images in the order of their stamps; those without a pose
-  /// are passed over.
+  /// Makes a good pose weak if it does not fit. To be called in the order of stamps; images without a pose
+  /// are ignored.
   void check(std::int64_t stamp_ns, Localization& found);
 
  private:

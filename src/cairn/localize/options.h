@@ -10,28 +10,32 @@
 
 namespace cairn {
 
-/// When a pose is called good.
+/// Holds the limits that a good pose must keep.
 struct TrustOptions {
-  int min_inliers = 50;  ///< poses that were wrong by 5 degrees had up to 47 on the recordings tried
-  /// Of them, matches by descriptor alone: those found around a predicted place agree with any pose.
+  int min_inliers = 50;  ///< fewest inliers; poses wrong by 5 degrees had up to 47 on the recordings tried
+  /// Fewest inliers that are first matches, made by descriptor over the whole image or within
+  /// prior_radius_px: matches found near the pixels that a pose predicts agree with any pose.
   int min_independent = 20;
-  int min_cells = 4;             ///< of 4 x 4 that the image is cut into, with an inlier
-  double max_gdop = 0.05;        ///< metres per pixel of noise in every observation
-  double max_position = 0.5;     ///< metres: largest protection level of an axis
-  double max_angle_deg = 5;      ///< degrees: the same of the rotation
-  double max_acceleration = 20;  ///< m/s^2 between poses in a row: hand-held cameras and cars have less
-  double max_angular_acceleration = 60;  ///< rad/s^2
+  int min_cells = 4;       ///< fewest cells with an inlier, of 4 x 4 that the image is divided into
+  double max_gdop = 0.05;  ///< largest dilution of precision, metres per pixel of noise in every observation
+  double max_position = 0.5;  ///< largest protection level of the position along an axis, metres
+  double max_angle_deg = 5;   ///< largest protection level of the rotation about an axis, degrees
+  /// Largest acceleration between successive poses, m/s^2; hand-held cameras and cars have less.
+  double max_acceleration = 20;
+  double max_angular_acceleration = 60;  ///< between successive poses, rad/s^2
 };
 
-/// Finding the pose of an image in a map.
+/// Holds the options of localising an image in a map.
 struct LocalizeOptions {
-  int keyframes = 2;             ///< that look most like the image, whose landmarks are looked for
-  int more_keyframes = 14;       ///< tried, as many at a time, when those do not lead to a good pose
-  double max_ratio = 0.85;       ///< of the distances of the nearest and the second nearest descriptor
-  double prior_radius_px = 40;   ///< how far landmarks may lie from where a prior pose has them
-  double radius_px = 6;          ///< the same for a pose found by matching
-  int nearby_keyframes = 6;      ///< around the pose, whose landmarks are looked for as well
-  int ransac_iterations = 1000;  ///< of samples of three: enough for 15 % inliers
+  /// Number of keyframes, those that look most like the image, whose landmarks are searched for.
+  int keyframes = 2;
+  int more_keyframes = 14;  ///< further ones tried, `keyframes` at a time, if those lead to no good pose
+  /// Largest ratio of the distances to the nearest and the second nearest descriptor.
+  double max_ratio = 0.85;
+  double prior_radius_px = 40;   ///< search radius around where a prior pose predicts a landmark
+  double radius_px = 6;          ///< search radius around where a pose found by matching predicts a landmark
+  int nearby_keyframes = 6;      ///< keyframes around a pose found, whose landmarks are searched for as well
+  int ransac_iterations = 1000;  ///< samples of three matches; enough for 15 % inliers
   TrustOptions trust;
   std::uint64_t seed = 1;
 
@@ -42,14 +46,14 @@ struct LocalizeOptions {
 /// Visits the parameters of localisation, in the order of --help.
 void visit(LocalizeOptions& options, ParameterVisitor& visitor);
 
-/// The camera that an image to be localised was seen by, as the image is observed: after camera_for_queries.
+/// Describes the camera of the images to be localised, after camera_for_queries.
 struct QueryCamera {
-  Rig rig;                    ///< that the image's observations are of
+  Rig rig;                    ///< rig that the observations are of
   int width = 0, height = 0;  ///< pixels
 };
 
-/// How features are found and described in images that are looked for in this map; `contrast` as in
-/// FeatureOptions.
+/// Returns the options of observing images to be localised in this map: with the detector and descriptor of
+/// its kind, `features` features, the contrast as in FeatureOptions, and the map's baseline for depth.
 [[nodiscard]] ObserverOptions observer_options_for(const MapInfo& map, int features, double contrast);
 
 /// Returns the camera of a query after its images are resized (resized_camera) to the map's pixels per

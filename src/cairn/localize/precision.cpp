@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-/// 1e-3 two-sided, and one-sided for what an inlier test misses.
+/// Quantiles of the normal distribution for 1e-3: two-sided, and one-sided for what an inlier test misses.
 constexpr double kTwoSided = 3.291, kOneSided = 3.090;
 
 Matrix6d unit_cofactor(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
@@ -26,9 +26,10 @@ Matrix6d unit_cofactor(const Rig& rig, const Correspondences& correspondences, c
   return information.ldlt().solve(Matrix6d::Identity());
 }
 
-/// By how much an axis can be off because of one inlier that is wrong unnoticed. The test of observation i
-/// sees the share 1 - h of its error, h being its leverage; so an error of (limit + k) / (1 - h) standard
-/// deviations is missed with the probability of k at most, and moves the pose by the gain times that.
+/// Computes by how much an axis can be off because of one inlier that is wrong unnoticed. The test of
+/// observation i sees the share 1 - h of its error, h being its leverage; so an error of (limit + k) / (1 -
+/// h) standard deviations is missed with the probability of k at most, and moves the pose by the gain times
+/// that.
 Vector6d unnoticed_error(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
   Vector6d largest = Vector6d::Zero();
   for (const std::int32_t index : pose.inliers) {

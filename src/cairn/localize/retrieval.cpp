@@ -7,7 +7,7 @@
 namespace cairn {
 namespace {
 
-/// Keyframes that show something which looks like one descriptor, each once.
+/// Collects the keyframes that show something which looks like one descriptor, each once.
 class Voters {
  public:
   explicit Voters(std::size_t keyframes) : last_(keyframes, -1) {}

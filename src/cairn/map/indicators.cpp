@@ -24,7 +24,8 @@ ValueRange range_of(const std::vector<double>& values) {
   return {mean, *min, *max, std::sqrt(squares / count)};
 }
 
-/// By the chord between the unit rays, which is exact where angles are small and a cosine is not.
+/// Computes the largest angle by the chord between unit rays, which is exact for small angles; a cosine is
+/// not.
 double max_ray_angle_deg(const Eigen::Vector3d& point_in_world, std::span<const PosedObservation> views) {
   std::vector<Eigen::Vector3d> rays;
   for (const PosedObservation& view : views) {
@@ -38,7 +39,8 @@ double max_ray_angle_deg(const Eigen::Vector3d& point_in_world, std::span<const 
   return 2 * std::asin(std::min(1.0, std::sqrt(squared_chord) / 2)) * kDegrees;
 }
 
-/// Infinite where the point is not in front of the camera.
+/// Computes the squared distance of pixel and projection; infinite if the point is not in front of the
+/// camera.
 double squared_distance_px(const Rig& rig, const Eigen::Vector3d& point_in_camera, const Observation& seen) {
   const Eigen::Vector3d projected = rig.project(point_in_camera);
   const double du = projected.x() - seen.u, dv = projected.y() - seen.v;

@@ -11,21 +11,21 @@
 
 namespace cairn {
 
-/// What the descriptors of a map are called, how they are compared, and how long one is.
+/// Describes the descriptors of a map: their name, how they are compared, and their size.
 struct DescriptorKind {
   std::string name = "ORB";  ///< as in FeatureOptions
   Norm norm = Norm::hamming;
-  std::uint32_t bytes = 0;  ///< 0 where no descriptor has been seen yet
+  std::uint32_t bytes = 0;  ///< size of a descriptor; 0 if none has been seen yet
 };
 
-/// What is true of a whole map.
+/// Holds what is true of a whole map.
 struct MapHeader {
-  Rig rig;                    ///< that its observations are of
-  int width = 0, height = 0;  ///< pixels of its images; 0 where not known
+  Rig rig;                    ///< rig that the observations are of
+  int width = 0, height = 0;  ///< size of the images, pixels; 0 if it is not known
   DescriptorKind descriptor;
-  std::string world = "camera of the first keyframe";  ///< what frame its poses and points are in, in words
-  std::optional<GeodeticOrigin> origin;                ///< of a georeferenced world
-  std::string settings;                                ///< of the run that made it, for people; any text
+  std::string world = "camera of the first keyframe";  ///< frame that poses and points are in, in words
+  std::optional<GeodeticOrigin> origin;                ///< origin of a georeferenced world
+  std::string settings;  ///< settings of the run that made it, for people; any text
 };
 
 }  // namespace cairn

@@ -10,20 +10,20 @@
 
 namespace cairn {
 
-/// A frame reduced to what is tracked: feature i of the image, its observation in the undistorted image, and
-/// its point where the depth is known.
+/// Holds a frame reduced to what is tracked: feature i of the image, its observation in the undistorted
+/// image, and its point if the depth is known.
 struct ObservedFrame {
   FrameId frame;
   std::int64_t stamp_ns = 0;
   Features features;
   std::vector<Observation> observations;          ///< one per feature
-  std::vector<Eigen::Vector3d> points_in_camera;  ///< one per feature; NaN where depth is unknown
+  std::vector<Eigen::Vector3d> points_in_camera;  ///< one per feature, metres; NaN if the depth is unknown
 };
 
-/// Where an observation places what it shows, metres; NaN without a disparity.
+/// Computes the point that an observation shows, in the camera frame, metres; NaN without a disparity.
 [[nodiscard]] Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen);
 
-/// Median of the features' depths, metres; NaN where none has a depth.
+/// Computes the median of the features' depths, metres; NaN if none has a depth.
 [[nodiscard]] double median_depth(const ObservedFrame& frame);
 
 }  // namespace cairn

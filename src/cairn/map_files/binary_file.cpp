@@ -94,7 +94,8 @@ BinaryReader::BinaryReader(const std::filesystem::path& path, const BinaryKind& 
   (void)get_bytes(kind.magic.size() + sizeof(kind.version));
 }
 
-/// Before any checksum: of a file of another kind or version nothing more is to be said.
+/// Checks magic and version before any checksum: in a file of another kind or version nothing else can be
+/// checked.
 void BinaryReader::check_beginning(const BinaryKind& kind) {
   const std::size_t bytes = kind.magic.size() + sizeof(kind.version), least = bytes + kChecksumBytes;
   if (file_.size() < least) fail(fmt::format("at least {} bytes", least), fmt::format("{}", file_.size()));

@@ -15,29 +15,29 @@
 
 namespace cairn {
 
-/// Beginning of every binary file of a map: eight letters and the version of the layout.
+/// Describes how a binary file of a map begins: with eight letters and the version of the layout.
 struct BinaryKind {
   std::string_view magic;  ///< 8 bytes
   std::uint32_t version = 0;
 };
 
-/// What to do about a map that cannot be read.
+/// Remedy for a map that cannot be read.
 constexpr std::string_view kMapRemedy = "Copy the map again from where it was made, or make it again.";
 
 /// Remedy for a map of a version that this program does not read.
 constexpr std::string_view kVersionRemedy =
     "Make the map again, or read it with the version of cairn that made it.";
 
-/// Bytes of a binary file that one checksum covers, so that little has to be read to check a component.
+/// Bytes of a binary file that one checksum covers, so that little has to be read to check a piece of it.
 constexpr std::size_t kBlockBytes = 4096;
 
-/// The end of a binary file: CRC-32 of each block of kBlockBytes, of which the last may be shorter, and the
-/// CRC-32 of these checksums.
+/// Computes the seal, with which a binary file ends: the CRC-32 of each block of kBlockBytes, of which the
+/// last may be shorter, and the CRC-32 of these checksums.
 class BlockSeal {
  public:
-  /// The next bytes of the file, in pieces of any size.
+  /// Adds the next bytes of the file, in pieces of any size.
   void add(std::string_view bytes);
-  /// What has to follow them.
+  /// Returns the seal, to be written after the bytes added.
   [[nodiscard]] std::string finish() &&;
 
  private:
@@ -48,10 +48,10 @@ class BlockSeal {
   std::size_t in_block_ = 0;
 };
 
-/// How many bytes of a binary file come before its seal; nothing where no file has this size.
+/// Returns how many bytes of a binary file come before its seal, or nullopt if no sealed file has this size.
 [[nodiscard]] std::optional<std::uint64_t> sealed_bytes(std::uint64_t file_bytes);
 
-/// Little-endian values without padding.
+/// Collects values in little-endian order without padding.
 class ByteWriter {
  public:
   template <class Value>
@@ -69,21 +69,23 @@ class ByteWriter {
   std::string bytes_;  // NOLINT(cppcoreguidelines-non-private-member-variables-in-classes)
 };
 
-/// A binary file in memory: magic, version, values, and the seal.
+/// Makes a binary file in memory: magic, version, values, and the seal.
 class BinaryWriter : public ByteWriter {
  public:
+  /// Throws PreconditionError unless the magic has 8 bytes.
   explicit BinaryWriter(const BinaryKind& kind);
-  /// The whole file.
+  /// Returns the whole file, with its seal.
   [[nodiscard]] std::string finish() &&;
 };
 
-/// The same for a file that does not fit into memory: it appears under its name when it is finished.
+/// Writes a binary file that does not fit into memory: magic, version, values, and the seal. The file appears
+/// under its name when it is finished.
 class BinaryFileWriter {
  public:
-  /// `begin` has magic, version and the first values.
+  /// Begins a file; `begin` has magic, version and the first values.
   BinaryFileWriter(const std::filesystem::path& path, const BinaryWriter& begin);
   void write(std::string_view bytes);
-  /// Returns the checksum that the file ends with.
+  /// Writes the seal and gives the file its name. Returns the checksum that the file ends with.
   std::uint32_t finish();
 
  private:
@@ -91,41 +93,43 @@ class BinaryFileWriter {
   BlockSeal seal_;
 };
 
-/// The checksum that a sealed file ends with.
+/// Returns the checksum that a sealed file ends with.
 [[nodiscard]] std::uint32_t stored_checksum(std::string_view file);
 
-/// Reads what BinaryWriter made, in the same order, with memory for some blocks and the seal only. Magic,
-/// version and the seal are checked first, and each block before anything of it is handed out. InputError
-/// names the file.
+/// Reads the values of a binary file in the order in which they were put (BinaryWriter), with memory for some
+/// blocks and the seal only. Checks magic, version and the seal first, and each block before anything of it
+/// is returned. Throws InputError that names the file.
 class BinaryReader {
  public:
   BinaryReader(const std::filesystem::path& path, const BinaryKind& kind);
 
   template <class Value>
+  /// Returns the next value.
   [[nodiscard]] Value get() {
     static_assert(std::is_arithmetic_v<Value>);
     Value value;
     std::memcpy(&value, get_bytes(sizeof(Value)), sizeof(Value));
     return value;
   }
-  /// Valid until the next call.
+  /// Returns the next `count` bytes, valid until the next call.
   [[nodiscard]] const char* get_bytes(std::size_t count) {
     if (count > checked_.size() - next_) check_more(count);
     next_ += count;
     return checked_.data() + next_ - count;
   }
-  /// InputError unless what is left are `count` records of `bytes` bytes (at least 1, at most 2^33), then
-  /// `more_count` of `more_bytes`: ask before making room for them.
+  /// Throws InputError unless exactly `count` records of `bytes` bytes (at least 1, at most 2^33), then
+  /// `more_count` of `more_bytes`, are left. To be called before making room for them.
   void expect_bytes(std::uint64_t count, std::uint64_t bytes, std::uint64_t more_count = 0,
                     std::uint64_t more_bytes = 1) const;
-  /// InputError unless the file ends with this checksum: it is another file's.
+  /// Throws InputError unless the file ends with this checksum, that is, if it is another file.
   void expect_checksum(std::optional<std::uint32_t> checksum) const;
+  /// Throws InputError that names the file and kMapRemedy.
   [[noreturn]] void fail(std::string expected, std::string found) const;
 
  private:
   void check_beginning(const BinaryKind& kind);
   void read_seal();
-  /// Makes `count` bytes ready to be handed out.
+  /// Reads and checks blocks until `count` bytes can be returned.
   void check_more(std::size_t count);
   void check_blocks(std::string_view bytes, std::uint64_t first_block) const;
   [[noreturn]] void fail_damaged() const;

@@ -40,7 +40,7 @@ void require_one_world(const fs::path& folder, const MapInfo& info) {
                       "Export a map whose keyframes are all connected."});
 }
 
-/// InputError unless every keyframe is a frame of the sequence.
+/// Throws InputError unless every keyframe is a frame of the sequence.
 void require_frames(const fs::path& folder, const MapInfo& info, const Sequence& sequence) {
   for (std::size_t i = 0; i < info.keyframes.size(); ++i) {
     const auto& [frame, stamp_ns, component, checksum] = info.keyframes[i];
@@ -68,7 +68,7 @@ Rgb8 color_at(const RgbImage& image, const Eigen::Vector2d& pixel) {
   return {channel(&Rgb8::r), channel(&Rgb8::g), channel(&Rgb8::b)};
 }
 
-/// Returns the median of each channel, of an even number the lower one; there is a colour at least.
+/// Returns the median of each channel, the lower one of an even number; there must be a colour.
 Rgb8 median_color(std::vector<Rgb8>& colors) {
   const auto channel = [&](std::uint8_t Rgb8::*of) {
     const auto middle = colors.begin() + static_cast<std::ptrdiff_t>((colors.size() - 1) / 2);
@@ -79,7 +79,7 @@ Rgb8 median_color(std::vector<Rgb8>& colors) {
   return {channel(&Rgb8::r), channel(&Rgb8::g), channel(&Rgb8::b)};
 }
 
-/// A keyframe's images and features.
+/// Holds a keyframe's images and features.
 struct ExportedKeyframe {
   ColmapImage left;
   std::optional<ColmapImage> right;
@@ -229,7 +229,7 @@ ColmapPoint Exporter::point(std::size_t number, const StoredLandmark& landmark,
   return point;
 }
 
-/// The folder of the model; one that was made and stays empty, as after an error, is removed again.
+/// Makes the folder of the model, and removes it again if it was made and stays empty, as after an error.
 class ModelFolder {
  public:
   explicit ModelFolder(const fs::path& path) : path_(path) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPiece = 1 << 16;
 
-/// A camera model of COLMAP's and its parameters in COLMAP's order.
+/// Describes a camera model of COLMAP and its parameters in COLMAP's order.
 struct ColmapModel {
   const char* name;
   std::int32_t number;
@@ -30,8 +30,8 @@ ColmapModel model_of(const Camera& camera) {
   return {"FULL_OPENCV", 6, parameters};
 }
 
-/// The double that a text with so many decimals is read as: 10^decimals is exact, and so is the quotient's
-/// rounding.
+/// Returns the double that a text with so many decimals is read as: 10^decimals is exact, and so is the
+/// quotient's rounding.
 double rounded(double value, double scale) {
   return std::round(value * scale) / scale;
 }

@@ -19,12 +19,13 @@
 
 namespace cairn {
 
-/// A feature of an image of a COLMAP model.
+/// Describes a feature of an image of a COLMAP model.
 struct ColmapPixel {
-  Eigen::Vector2d pixel;    ///< pixels; COLMAP's have their centres at .5
+  Eigen::Vector2d pixel;    ///< position, pixels; COLMAP's pixels have their centres at .5
   std::int64_t point = -1;  ///< number of the point that it shows, -1 if none
 };
 
+/// Describes an image of a COLMAP model.
 struct ColmapImage {
   std::uint32_t number = 0, camera = 0;
   CameraFromWorld camera_from_world;
@@ -32,6 +33,7 @@ struct ColmapImage {
   std::vector<ColmapPixel> pixels;
 };
 
+/// Describes a point of a COLMAP model.
 struct ColmapPoint {
   std::uint64_t number = 0;
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
@@ -40,29 +42,31 @@ struct ColmapPoint {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> track;  ///< numbers of an image and of a pixel in it
 };
 
-/// How many of each a model holds.
+/// Holds how many cameras, images and points a model has.
 struct ColmapCounts {
   std::uint64_t cameras = 0, images = 0, points = 0;
 };
 
-/// Writes a sparse model of COLMAP's (Schoenberger & Frahm 2016, colmap.github.io/format.html) in both forms
-/// at once: cameras, images and points3D as .txt and as .bin, with the same values. Pixels are rounded to
-/// 1e-4, errors to 1e-5 pixels. The files appear under their names with `commit`. InputError if the disk
+/// Writes a sparse model of COLMAP (Schoenberger & Frahm 2016, colmap.github.io/format.html) in both forms at
+/// once: cameras, images and points3D as .txt and as .bin, with the same values. Pixels are rounded to 1e-4,
+/// errors to 1e-5 pixels. The files appear under their names with commit(). Throws InputError if the disk
 /// fails.
 class ColmapWriter {
  public:
-  /// `folder` exists; the counts are those of the calls that follow.
+  /// Begins a model in `folder`, which exists; the counts are those of the calls that follow.
   ColmapWriter(const std::filesystem::path& folder, const ColmapCounts& counts);
 
-  /// pinhole becomes PINHOLE, radtan OPENCV or (with a third radial coefficient) FULL_OPENCV, kb4
-  /// OPENCV_FISHEYE.
+  /// Adds a camera: pinhole becomes PINHOLE, radtan OPENCV or (with a third radial coefficient) FULL_OPENCV,
+  /// kb4 OPENCV_FISHEYE.
   void add_camera(std::uint32_t number, const Camera& camera);
+  /// Adds an image with its features.
   void add_image(const ColmapImage& image);
+  /// Adds a point with its track.
   void add_point(const ColmapPoint& point);
   void commit();
 
  private:
-  /// A text and a binary file that grow together.
+  /// Writes a text file and a binary file side by side.
   class Pair {
    public:
     Pair(const std::filesystem::path& folder, const std::string& name, std::uint64_t count);

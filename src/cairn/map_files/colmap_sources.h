@@ -11,10 +11,11 @@
 
 namespace cairn {
 
-/// A camera as it took the images on disk, with its distortion and before any rectification.
+/// Describes a camera as it took the images on disk, with its distortion and before any rectification.
 struct RecordedCamera {
   Camera camera;
-  /// Turns the undistorted, rectified camera of the same centre, of which a map's observations are, into it.
+  /// Rotation into this camera from the undistorted, rectified camera with the same centre, of which a map's
+  /// observations are.
   Eigen::Quaterniond recorded_from_map = Eigen::Quaterniond::Identity();
 
   /// Returns the pixel in the image on disk of what is seen in pixel (u, v) of the map's camera; nullopt if
@@ -24,24 +25,25 @@ struct RecordedCamera {
   }
 };
 
-/// The cameras of a sequence; RGB-D has no right one.
+/// Holds the cameras of a sequence; RGB-D has no right one.
 struct RecordedRig {
   RecordedCamera left;
   std::optional<RecordedCamera> right;
-  double baseline = 0;  ///< metres; of the right camera
+  double baseline = 0;  ///< distance between the cameras, metres; 0 if there is none
 };
+/// Returns the cameras that took the images of a sequence.
 [[nodiscard]] RecordedRig recorded_rig(const Sequence& sequence);
 
-/// Returns the folder that COLMAP is given as --image_path: the sequence's, or the innermost one above it
-/// that has all of its images below it.
+/// Returns the folder to be given to COLMAP as --image_path: that of the sequence, or the innermost one above
+/// it that contains all of its images.
 [[nodiscard]] std::filesystem::path colmap_image_root(const Sequence& sequence);
 
-/// Returns the name of an image relative to that folder, as "image_0/000000.png". InputError for one with
-/// blanks, which COLMAP cannot read from a text.
+/// Returns the name of an image relative to `root`, such as "image_0/000000.png". Throws InputError for a
+/// name with blanks, which COLMAP cannot read from a text.
 [[nodiscard]] std::string colmap_image_name(const std::filesystem::path& root,
                                             const std::filesystem::path& image);
 
-/// InputError if a sequence's images cannot be named; to be asked before long work.
+/// Throws InputError if an image of the sequence has a name with blanks; to be called before long work.
 void check_colmap_names(const Sequence& sequence);
 
 }  // namespace cairn

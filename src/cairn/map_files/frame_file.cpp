@@ -50,7 +50,7 @@ Keypoint get_keypoint(const Observation& seen, BinaryReader& reader) {
   return keypoint;
 }
 
-/// The number of features; what the header says is as announced.
+/// Returns the number of features. Fails unless the header is as announced.
 std::uint32_t get_header(const MapInfo& info, KeyframeId number, BinaryReader& reader) {
   const KeyframeEntry& entry = info.keyframes[number.index()];
   reader.expect_checksum(entry.checksum);

@@ -11,25 +11,26 @@
 
 namespace cairn {
 
-/// What a file in frames/ holds of keyframe number `number`: feature i was observed as `observed` says and
-/// shows landmark number landmarks[i], or none where that is not valid.
+/// Holds the contents of a file in frames/: feature i of keyframe `number` was observed as `observed` says
+/// and shows landmark landmarks[i], none if that is not valid.
 struct FrameFile {
   KeyframeId number;
   ObservedFrame observed;
   std::vector<LandmarkId> landmarks;
 };
 
-/// An observation as it is stored: in single precision.
+/// Returns an observation as it is stored, that is, in single precision.
 [[nodiscard]] Observation as_stored(const Observation& seen);
 
-/// The contents of the file. The features are described as `kind` says, which matters where there are none.
+/// Returns the bytes of a file in frames/. `kind` is that of the descriptors, also if there are no features.
+/// Throws PreconditionError for impossible values, or for another number or kind of descriptors.
 [[nodiscard]] std::string format_frame_file(KeyframeId number, const ObservedFrame& observed,
                                             std::span<const LandmarkId> landmarks,
                                             const DescriptorKind& kind);
 
-/// Keyframe `number` of the map in `folder`, as `info` announces it. Its keypoints have no response.
-/// InputError where the file is missing, damaged, of another version, not the one that was announced, or
-/// holds impossible values.
+/// Reads keyframe `number` of the map in `folder`, as announced by `info`. Its keypoints have no response.
+/// Throws InputError if the file is missing, damaged, of another version, not the one announced, or holds
+/// impossible values.
 [[nodiscard]] FrameFile read_frame_file(const std::filesystem::path& folder, const MapInfo& info,
                                         KeyframeId number);
 

@@ -20,7 +20,7 @@ constexpr std::string_view kEdgeTag = "EDGE_SE3:QUAT";
 constexpr std::string_view kFixTag = "FIX";
 constexpr std::string_view kMend = "Mend or delete the line.";
 
-/// What the reader has so far, and the lines that can be checked only once all vertices are known.
+/// Holds what was read so far, and the lines that can be checked only when all vertices are known.
 struct Reading {
   PoseGraph graph;
   std::unordered_set<std::int64_t> ids;

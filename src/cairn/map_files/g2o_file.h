@@ -23,8 +23,8 @@ namespace cairn {
 /// a file without vertices.
 [[nodiscard]] PoseGraph read_g2o(const std::filesystem::path& path);
 
-/// The graph in the same format, readable by g2o and GTSAM. Numbers are the shortest that read back to the
-/// same bits. The robust flags are not stored: the format has no place for them.
+/// Returns the graph in g2o's text format (see read_g2o), readable by g2o and GTSAM. Numbers are the shortest
+/// that read back to the same bits. The robust flags are not stored: the format has no place for them.
 [[nodiscard]] std::string format_g2o(const PoseGraph& graph);
 
 }  // namespace cairn

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-/// Of a descriptor that is filled up, so that all records begin at a multiple of 8.
+/// Returns the size of a descriptor that is filled up so that all records begin at a multiple of 8.
 std::size_t padded(std::size_t bytes) {
   return (bytes + 7) / 8 * 8;
 }

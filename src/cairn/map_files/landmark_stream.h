@@ -10,13 +10,13 @@
 
 namespace cairn {
 
-/// Point.bin of the map in `folder`, as `info` announces it, landmark by landmark, in memory that does not
-/// grow with it. InputError where the file is missing, damaged, of another version, not the one that was
-/// announced, or holds impossible values. `info` outlives it.
+/// Reads Point.bin of the map in `folder` landmark by landmark, in memory that does not grow with it. Throws
+/// InputError if the file is missing, damaged, of another version, not the one announced by `info`, or holds
+/// impossible values. `info` must outlive the stream.
 class LandmarkStream {
  public:
   LandmarkStream(const std::filesystem::path& folder, const MapInfo& info);
-  /// In the order of their numbers; nothing after the last.
+  /// Returns the next landmark, in the order of their numbers, or nullopt after the last.
   [[nodiscard]] std::optional<StoredLandmark> next();
 
  private:
@@ -26,15 +26,19 @@ class LandmarkStream {
   std::uint64_t first_row_ = 0;  // that it has to have
 };
 
-/// The same for the rows of Descriptor.bin: the observations, landmark by landmark. Keyframes lie in their
-/// range.
+/// Reads Descriptor.bin of the map in `folder` row by row, that is, the observations landmark by landmark, in
+/// memory that does not grow with it. Keyframes lie in their range. Throws InputError if the file is missing,
+/// damaged, of another version, not the one announced by `info`, or holds impossible values. `info` must
+/// outlive the stream.
 class ObservationStream {
  public:
+  /// Holds an observation and its descriptor.
   struct Row {
     ObservationRef observation;
     const char* descriptor;  ///< as many bytes as the kind has; valid until the next row
   };
   ObservationStream(const std::filesystem::path& folder, const MapInfo& info);
+  /// Returns the next row, or nullopt after the last.
   [[nodiscard]] std::optional<Row> next();
 
  private:

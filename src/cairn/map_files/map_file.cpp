@@ -13,11 +13,12 @@
 namespace cairn {
 namespace {
 
-/// What is written of a map, in the order in which it is numbered.
+/// Holds what is written of a map, in the order of the new numbers.
 struct Selection {
   std::vector<KeyframeId> keyframes;
   std::vector<LandmarkId> landmarks;
-  std::vector<KeyframeId> keyframe_numbers;  ///< of each keyframe of the map; not valid where it is erased
+  std::vector<KeyframeId>
+      keyframe_numbers;  ///< new number of each keyframe of the map; not valid if it is erased
   std::vector<LandmarkId> landmark_numbers;
 };
 
@@ -36,7 +37,7 @@ Selection select(const Map& map) {
   return selection;
 }
 
-/// With the norm and size that the map's descriptors have.
+/// Returns the header with the norm and size of the map's descriptors.
 MapHeader header_of(const Map& map) {
   MapHeader header = map.header();
   for (const Keyframe& keyframe : map.keyframes()) {
@@ -56,8 +57,8 @@ std::vector<LandmarkId> renumbered(const std::vector<LandmarkId>& landmarks, con
   return numbers;
 }
 
-/// The view of an observation as a reader of the files will have it, so that a map that was read gives the
-/// same table.
+/// Returns the view of an observation as a reader of the files will have it, so that a map that was read
+/// gives the same table.
 PosedObservation stored_view(const Keyframe& keyframe, std::size_t feature) {
   const WorldFromCamera world_from_camera(
       {unit_rotation(keyframe.world_from_camera.rotation), keyframe.world_from_camera.translation});

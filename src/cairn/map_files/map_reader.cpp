@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// All files of a map, each sound in itself.
+/// Holds the contents of all files of a map, each valid in itself.
 struct MapFiles {
   fs::path folder;
   MapInfo info;
@@ -58,7 +58,7 @@ MapFiles read_files(const fs::path& folder) {
   return files;
 }
 
-/// The feature of an observation shows this landmark, and looks as Descriptor.bin says.
+/// Fails unless the feature of an observation shows this landmark and has the descriptor in Descriptor.bin.
 void check_observation(const MapFiles& files, std::size_t landmark, std::size_t row) {
   const ObservationRef& observation = files.observations.observations[row];
   const FrameFile& frame = files.frames[observation.keyframe.index()];
@@ -74,7 +74,7 @@ void check_observation(const MapFiles& files, std::size_t landmark, std::size_t 
     fail(files.folder / kDescriptorFile, fmt::format("in row {} the descriptor of frames/", row), "another");
 }
 
-/// Point.bin, Descriptor.bin and frames/ say the same.
+/// Fails unless Point.bin, Descriptor.bin and frames/ agree.
 void check_observations(const MapFiles& files) {
   for (std::size_t i = 0; i < files.landmarks.size(); ++i) {
     KeyframeId before;
@@ -97,8 +97,8 @@ void check_observations(const MapFiles& files) {
          fmt::format("{}", files.info.observations));
 }
 
-/// For each keyframe the earlier one of its component that shows most of the landmarks that it shows, the
-/// latest of several, or the one before it in its component; not valid for a component's first.
+/// Returns for each keyframe the earlier one of its component that shows most of the landmarks that it shows,
+/// the latest of several, or the one before it in its component; not valid for a component's first.
 std::vector<KeyframeId> choose_parents(const MapFiles& files) {
   const auto component_of = [&](std::size_t keyframe) { return files.info.keyframes[keyframe].component; };
   std::vector<KeyframeId> parents(files.frames.size());
@@ -121,7 +121,7 @@ std::vector<KeyframeId> choose_parents(const MapFiles& files) {
   return parents;
 }
 
-/// Of files that were checked; they are taken apart.
+/// Builds the map of files that were checked, and moves their contents into it.
 Map build_map(MapFiles&& files) {
   Map map(static_cast<const MapHeader&>(files.info));
   const std::vector<KeyframeId> parents = choose_parents(files);

@@ -29,9 +29,9 @@ constexpr const char* kLargestStd = "largest_std";
   throw InputError({path.string(), 0, std::move(expected), std::move(found), std::string(kMapRemedy)});
 }
 
-/// A set of observations in 64 bits, whatever their order: the sum of a random number for each, so that
-/// frames/, which has them by keyframes, and Point.bin with Descriptor.bin, which have them by landmarks, can
-/// be compared without holding either.
+/// Represents a set of observations in 64 bits, whatever their order: the sum of a random number for each, so
+/// that frames/, which has them by keyframes, and Point.bin with Descriptor.bin, which have them by
+/// landmarks, can be compared without holding either.
 class ObservationSet {
  public:
   void add(const ObservationRef& observation, LandmarkId landmark, std::string_view descriptor) {
@@ -48,7 +48,7 @@ class ObservationSet {
   std::uint64_t sum_ = 0;
 };
 
-/// Those that frames/ has.
+/// Returns the observations in frames/.
 ObservationSet read_frames(const fs::path& folder, const MapInfo& info) {
   ObservationSet shown;
   std::uint64_t features = 0;
@@ -67,7 +67,7 @@ ObservationSet read_frames(const fs::path& folder, const MapInfo& info) {
   return shown;
 }
 
-/// Takes a landmark after the other and counts its indicators.
+/// Counts the indicators of one landmark after the other.
 class IndicatorCounter {
  public:
   explicit IndicatorCounter(MapStatistics& figures) : figures_(figures) {
@@ -97,7 +97,7 @@ class IndicatorCounter {
   std::vector<bool> is_point_std_;
 };
 
-/// Those that Point.bin and Descriptor.bin have; counts the landmarks' indicators.
+/// Returns the observations in Point.bin and Descriptor.bin, and counts the landmarks' indicators.
 ObservationSet read_landmarks(const fs::path& folder, MapStatistics& figures) {
   LandmarkStream landmarks(folder, figures.info);
   ObservationStream observations(folder, figures.info);

@@ -12,25 +12,25 @@
 
 namespace cairn {
 
-/// One indicator of all landmarks.
+/// Holds one indicator of all landmarks.
 struct IndicatorDistribution {
-  std::string name;  ///< a column of uvlist.txt, or "largest_std": metres along the worst direction
+  std::string name;  ///< column of uvlist.txt, or "largest_std": metres along the worst direction
   Distribution values;
 };
 
-/// What a map holds, and how good its landmarks are.
+/// Holds what a map contains, and how good its landmarks are.
 struct MapStatistics {
   MapInfo info;
-  std::map<std::int32_t, std::size_t> component_keyframes;  ///< by component
-  std::uint32_t most_observations = 0;                      ///< of one landmark
+  std::map<std::int32_t, std::size_t> component_keyframes;  ///< number of keyframes by component
+  std::uint32_t most_observations = 0;                      ///< largest number of observations of a landmark
   std::uint32_t without_covariance =
-      0;  ///< landmarks whose covariance was not computed: no "std" of theirs is counted
-  std::vector<IndicatorDistribution> indicators;  ///< in the order of uvlist.txt
+      /// Landmarks whose covariance is not known; their standard deviations are not counted.
+      0;
+  std::vector<IndicatorDistribution> indicators;  ///< in the order of uvlist.txt; largest_std after std_z
 };
 
-/// Reads all files of the map in `folder` once, piece by piece: the memory that it needs does not grow with
-/// the landmarks. InputError where a file is missing, damaged, of another version, or does not fit the
-/// others.
+/// Reads all files of the map in `folder` once, piece by piece; memory does not grow with the landmarks.
+/// Throws InputError if a file is missing, damaged, of another version, or does not fit the others.
 [[nodiscard]] MapStatistics read_map_statistics(const std::filesystem::path& folder);
 
 }  // namespace cairn

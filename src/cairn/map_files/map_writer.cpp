@@ -29,7 +29,7 @@ void make_folder(const fs::path& folder) {
   if (error) fail_writing(folder, "make the folder", error.value());
 }
 
-/// TUM format with all digits.
+/// Returns a line in the TUM format with all digits.
 std::string format_pose(std::int64_t stamp_ns, const WorldFromCamera& world_from_camera) {
   const Eigen::Vector3d& t = world_from_camera.translation;
   const Eigen::Quaterniond q = unit_rotation(world_from_camera.rotation);
@@ -107,7 +107,7 @@ void MapWriter::open_spools(const MapWriterState* state) {
   }
 }
 
-/// Also what a crash left half written.
+/// Removes the files of frames from `first` on, also those that a crash left half written.
 void MapWriter::remove_frames_from(std::int32_t first) const {
   std::vector<fs::path> kept;
   for (std::int32_t i = 0; i < first; ++i)

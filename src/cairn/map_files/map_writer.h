@@ -16,17 +16,18 @@
 
 namespace cairn {
 
-/// A landmark that will not change any more.
+/// Holds a landmark that will not change any more.
 struct FinishedLandmark {
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();  ///< metres
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();      ///< of the point, square metres; 0: not known
-  std::vector<ObservationRef> observations;  ///< at least one; by keyframe, increasing, one for each
-  std::vector<Keypoint> keypoints;           ///< of each observation; only size and sigma are kept
+  /// Covariance of the point, square metres; 0: not known.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::vector<ObservationRef> observations;  ///< at least one; by ascending keyframe, one for each
+  std::vector<Keypoint> keypoints;           ///< of each observation; only size and sigma are stored
   Descriptors descriptors;                   ///< of each observation
-  LandmarkIndicators indicators;             ///< for its row in uvlist.txt
+  LandmarkIndicators indicators;             ///< indicators for its row in uvlist.txt
 };
 
-/// How far a MapWriter had come.
+/// Holds how far a MapWriter has come.
 struct MapWriterState {
   static constexpr std::size_t kAppendFiles = 5;
   std::array<AppendFileState, kAppendFiles> append_files;
@@ -34,43 +35,45 @@ struct MapWriterState {
   std::uint32_t landmarks = 0;
   std::uint64_t features = 0, observations = 0;
 
+  /// Appends the state to `writer`.
   void put(ByteWriter& writer) const;
+  /// Reads a state that was put.
   [[nodiscard]] static MapWriterState get(BinaryReader& reader);
 };
 
-/// Writes the folder of a map, whose layout is docs/map_format.md, piece by piece: the memory it needs does
-/// not grow with the map, but for a thousandth of the files' size while they are put together at the end.
+/// Writes the folder of a map, whose layout is docs/map_format.md, piece by piece. Memory does not grow with
+/// the map, but for a thousandth of the files' size when they are put together at the end.
 ///
-/// Frames come in order, and so do landmarks; a landmark may come before the frames that show it or after
-/// them. After a crash it goes on from where its state was last saved, and the same calls then end with the
-/// same bytes as without the crash.
+/// Frames are added in order, and so are landmarks; a landmark may come before the frames that show it or
+/// after them. After a crash the writer resumes from its last saved state, and the same calls then end with
+/// the same bytes as without the crash.
 ///
-/// InputError where the disk does not do as it should; PreconditionError for what no map can have.
+/// Throws InputError if the disk fails, and PreconditionError for what no map can have.
 class MapWriter {
  public:
   /// Begins a map in `folder`, which exists. `header.descriptor` names one of descriptor_names(), and has the
   /// descriptors' norm and bytes.
   MapWriter(const std::filesystem::path& folder, const MapHeader& header);
-  /// Goes on in the folder where `state` was saved; what was written later is lost.
+  /// Resumes in the folder in which `state` was saved; what was added later is lost.
   MapWriter(const std::filesystem::path& folder, const MapHeader& header, const MapWriterState& state);
   ~MapWriter();
 
-  /// The next frame. Its feature i shows landmarks[i], a final number, or none where that is not valid.
-  /// Observations are finite, their sigmas and disparities above 0.
+  /// Adds the next frame. Its feature i shows landmark landmarks[i], a final number, or none if that is not
+  /// valid. Observations are finite, their standard deviations and disparities above 0.
   void add_frame(const ObservedFrame& observed, std::span<const LandmarkId> landmarks,
                  const WorldFromCamera& world_from_camera, std::int32_t component = 0);
-  /// The next landmark.
+  /// Adds the next landmark.
   void add_landmark(const FinishedLandmark& landmark);
   [[nodiscard]] std::int32_t frames() const { return frames_; }
   [[nodiscard]] std::uint32_t landmarks() const { return landmarks_; }
 
-  /// Returns when all that was added is on the disk.
+  /// Writes all that was added to the disk, and returns the state for resuming there.
   [[nodiscard]] MapWriterState save();
 
-  /// Puts the files of the map together; there is a frame. To be called last. What it worked with stays in
-  /// the folder, so that a crash within it is none either: discard_spools once the map is not to be gone on
-  /// with.
+  /// Puts the files of the map together. To be called last, with at least one frame. Its working files stay
+  /// in the folder, so that a crash during the call can be resumed as well; discard_spools removes them.
   void finish();
+  /// Removes the working files from the folder of a map that is finished.
   static void discard_spools(const std::filesystem::path& folder);
 
  private:

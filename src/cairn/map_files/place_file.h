@@ -15,41 +15,43 @@
 
 namespace cairn {
 
-/// Writes Place.bin of the map in `folder`, whose Point.bin and Descriptor.bin are there as `info` says: some
-/// of each landmark's descriptors, one of four, in the leaves of a DescriptorTree. The memory that it needs
-/// does not grow with the map: the tree is of a sample, the rows are put in their places in a file `scratch`,
-/// which is gone afterwards. Returns the checksum that the file ends with.
+/// Writes Place.bin of the map in `folder`, whose Point.bin and Descriptor.bin are there as announced by
+/// `info`: one of four of each landmark's descriptors, in the leaves of a DescriptorTree. Memory does not
+/// grow with the map: the tree is built of a sample, and the rows are put in their positions in files in the
+/// folder `scratch`, which are gone afterwards. Returns the checksum that the file ends with.
 std::uint32_t write_place_file(const std::filesystem::path& folder, const MapInfo& info,
                                const std::filesystem::path& scratch);
 
-/// Place.bin mapped into memory: landmarks by what they look like, and which keyframes show a landmark.
-/// Safe to use from several threads.
+/// Maps Place.bin into memory: landmarks by what they look like, and the keyframes that show a landmark. Safe
+/// to use from several threads.
 class PlaceFile {
  public:
+  /// Opens Place.bin of the map in `folder`. Throws InputError if it is missing, damaged, or not as announced
+  /// by `info`.
   PlaceFile(const std::filesystem::path& folder, const MapInfo& info);
 
-  /// A descriptor of a landmark, and how far it is from the one asked for, as the kernels measure it.
+  /// Says that a descriptor of a landmark is near a query; `distance` is as the kernels measure it.
   struct Neighbour {
     std::uint32_t landmark = 0;
     std::int32_t distance = 0;
   };
   using Neighbours = std::vector<Neighbour>;  ///< nearest first; a landmark may be there more than once
 
-  /// For each query the stored descriptors nearer than `max_distance_share` of the mean distance of unrelated
-  /// ones, looked for in `leaves_per_descriptor` leaves of the tree. PreconditionError for descriptors of
-  /// another kind.
+  /// Finds for each query the stored descriptors within `max_distance_share` of the mean distance of
+  /// unrelated ones, in `leaves_per_descriptor` leaves of the tree. Throws PreconditionError for descriptors
+  /// of another kind.
   [[nodiscard]] std::vector<Neighbours> find(const Descriptors& queries, double max_distance_share,
                                              std::size_t leaves_per_descriptor) const;
 
-  /// Returns how many stored descriptors `find` has compared with those asked for so far, by all threads.
+  /// Returns how many distances `find` has computed so far, in all threads.
   [[nodiscard]] std::uint64_t compared_rows() const { return compared_rows_.load(std::memory_order_relaxed); }
-  /// Returns what was read of the file so far, see MappedFile.
+  /// Returns how much of the file was read so far, bytes, see MappedFile.
   [[nodiscard]] std::uint64_t touched_bytes() const { return file_.touched_bytes(); }
 
-  /// The keyframes of so many rows of Descriptor.bin, from `first_row` on.
+  /// Returns the keyframes of `count` rows of Descriptor.bin, from `first_row` on.
   [[nodiscard]] std::span<const std::int32_t> keyframes(std::uint64_t first_row, std::uint32_t count) const;
 
-  /// How many landmarks each keyframe shows.
+  /// Returns how many landmarks each keyframe shows.
   [[nodiscard]] const std::vector<std::uint32_t>& shown_landmarks() const { return shown_landmarks_; }
 
  private:

@@ -56,7 +56,7 @@ PlaceLayout layout_of(const PlaceHeader& header) {
 
 bool is_possible(const PlaceHeader& header, std::uint64_t file_bytes) {
   constexpr std::uint32_t kMostBranching = 1024, kMostBytes = 32768;
-  // None of these can be more than the bytes of the file, so no product below overflows.
+  // None of these can exceed the size of the file, so no product below overflows.
   return header.branching >= 2 && header.branching <= kMostBranching && header.bytes <= kMostBytes &&
          header.branches <= file_bytes && header.leaves >= 1 && header.leaves <= file_bytes &&
          header.rows <= file_bytes && header.observations <= file_bytes && file_bytes < (1ULL << 47U) &&

@@ -23,7 +23,7 @@ constexpr std::size_t kSampleRows = std::size_t{1} << 19;  // 67 MB of SIFT
 constexpr std::size_t kBatchRows = 4096;
 constexpr std::uint32_t kObservationsPerRow = 4;  // neighbouring views of a landmark look alike
 
-/// A file as memory: what is written goes to the disk where memory is short.
+/// Maps a file as memory: what is written goes to the disk if memory is short.
 class ScratchFile {
  public:
   ScratchFile(const std::filesystem::path& path, std::uint64_t bytes) : path_(path), bytes_(bytes) {
@@ -43,7 +43,7 @@ class ScratchFile {
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
   [[nodiscard]] char* data() { return static_cast<char*>(memory_); }
-  /// What was written may lie on the disk alone.
+  /// Allows the system to keep what was written on the disk alone.
   void forget() {
     if (bytes_ > 0) ::madvise(memory_, bytes_, MADV_DONTNEED);
   }
@@ -55,13 +55,13 @@ class ScratchFile {
   void* memory_ = nullptr;
 };
 
-/// Some rows of Descriptor.bin, with the landmarks that they show.
+/// Holds some rows of Descriptor.bin, with the landmarks that they show.
 struct Batch {
   Descriptors descriptors;
   std::vector<std::uint32_t> landmarks;
 };
 
-/// The rows of a map that go into the index, batch by batch: of each landmark one of four observations,
+/// Reads the rows of a map that go into the index, batch by batch: of each landmark one of four observations,
 /// spread evenly.
 class IndexedRows {
  public:
@@ -76,7 +76,7 @@ class IndexedRows {
     return count;
   }
 
-  /// Each `step`th row, from the first on.
+  /// Passes on each `step`th row, from the first on.
   template <class Take>
   void for_each_batch(std::uint64_t step, const Take& take) const {
     Batch batch = empty_batch();
@@ -103,13 +103,13 @@ class IndexedRows {
     forget();
   }
 
-  /// Keeps the memory as small as a batch, however large the map is.
+  /// Limits the memory to a batch, however large the map is.
   void forget() const {
     points_.forget();
     descriptors_.forget();
   }
 
-  /// The keyframe of each row of Descriptor.bin.
+  /// Passes on the keyframe of each row of Descriptor.bin.
   template <class Take>
   void for_each_keyframe(const Take& take) const {
     for (std::uint64_t row = 0; row < info_.observations; ++row)
@@ -146,7 +146,7 @@ class IndexedRows {
   MappedFile points_, descriptors_;
 };
 
-/// The tree of a sample, and the mean distance of descriptors in it that show different landmarks.
+/// Holds the tree of a sample, and the mean distance of descriptors in it that show different landmarks.
 struct SampledTree {
   DescriptorTree tree;
   double unrelated_distance = 0;
@@ -176,7 +176,7 @@ SampledTree sample_tree(const IndexedRows& rows, std::uint64_t count, const Desc
   return sampled;
 }
 
-/// Where the rows of each leaf begin, and at the end their number.
+/// Returns the first row of each leaf, and at the end the number of rows.
 std::vector<std::uint64_t> leaf_begins(const IndexedRows& rows, const DescriptorTree& tree) {
   std::vector<std::uint64_t> begins(tree.leaf_count() + 1);
   rows.for_each_batch(1, [&](const Batch& batch) {
@@ -249,7 +249,7 @@ void write_keyframes(const IndexedRows& rows, SectionWriter& sections) {
   sections.end();
 }
 
-/// Of a map without descriptors.
+/// Writes Place.bin of a map without descriptors.
 std::uint32_t write_empty_place_file(const std::filesystem::path& path, PlaceHeader header) {
   header.leaves = 1;
   SectionWriter sections(path, header);

@@ -31,7 +31,7 @@ StoredKeyframe stored_keyframe(const FrameFile& file, const WorldFromCamera& wor
   return view;
 }
 
-/// With the most keyframes, of several the first.
+/// Returns the component with the most keyframes, the first of several.
 std::int32_t main_component_of(const MapInfo& info) {
   std::map<std::int32_t, std::size_t> sizes;
   for (const KeyframeEntry& keyframe : info.keyframes) ++sizes[keyframe.component];
@@ -42,7 +42,7 @@ std::int32_t main_component_of(const MapInfo& info) {
 
 }  // namespace
 
-/// The keyframes used last.
+/// Keeps the keyframes used last.
 class StoredMap::Cache {
  public:
   using Entry = std::shared_ptr<const StoredKeyframe>;

@@ -12,39 +12,43 @@
 
 namespace cairn {
 
-/// A keyframe of a map, with those of its features that show a landmark.
+/// Holds a keyframe of a map, with those of its features that show a landmark.
 struct StoredKeyframe {
   WorldFromCamera world_from_camera;
-  std::vector<LandmarkId> landmarks;
-  std::vector<Keypoint> keypoints;  ///< of each
-  Descriptors descriptors;          ///< of each
+  std::vector<LandmarkId> landmarks;  ///< landmark that each feature shows
+  std::vector<Keypoint> keypoints;    ///< one per feature
+  Descriptors descriptors;            ///< one per feature
 };
 
-/// A map on disk, opened for reading without reading it: the large files are mapped into memory, and what is
-/// asked for is checked when it is first touched. Safe to use from several threads. InputError names a file
-/// that is missing, damaged, of another version, or does not fit the others.
+/// Opens a map on disk without reading all of it: the large files are mapped into memory, and what is asked
+/// for is checked when it is first touched. Safe to use from several threads. Throws InputError that names a
+/// file that is missing, damaged, of another version, or does not fit the others.
 class StoredMap {
  public:
-  /// The folder of a map, or of a run with one in its map/.
+  /// Opens the map in `folder`, or that of a run in its map/.
   explicit StoredMap(const std::filesystem::path& folder);
   ~StoredMap();
   StoredMap(const StoredMap&) = delete;
   StoredMap& operator=(const StoredMap&) = delete;
 
   [[nodiscard]] const MapInfo& info() const { return info_; }
-  /// world_from_camera of each keyframe.
+  /// Returns world_from_camera of each keyframe.
   [[nodiscard]] const std::vector<WorldFromCamera>& poses() const { return poses_; }
-  /// Whether the keyframe is of the component with the most keyframes, which alone has one world.
+  /// Returns whether a keyframe is in the main component, the one with the most keyframes. Only poses of one
+  /// component have a common world.
   [[nodiscard]] bool in_main_component(KeyframeId id) const;
   [[nodiscard]] const PlaceFile& places() const { return places_; }
+  /// Returns a landmark. Throws PreconditionError if it is not in the map.
   [[nodiscard]] StoredLandmark landmark(LandmarkId id) const;
-  /// Read when it is first asked for; those used last are kept in memory.
+  /// Returns a keyframe, which is read when it is first asked for; those used last are kept in memory. Throws
+  /// PreconditionError if it is not in the map.
   [[nodiscard]] std::shared_ptr<const StoredKeyframe> keyframe(KeyframeId id) const;
 
-  /// Returns what was read of the mapped files, landmarks and places, so far.
+  /// Returns how much of the mapped files, landmarks and places, was read so far, bytes.
   [[nodiscard]] std::uint64_t touched_bytes() const;
 
   /// Checks the bytes of all files, also of those that are never touched. Takes as long as reading them.
+  /// Throws InputError for a damaged file.
   void check() const;
 
  private:

@@ -51,7 +51,8 @@ void UvlistStream::fail(std::string expected, std::string found) const {
   throw InputError({path_.string(), line_, std::move(expected), std::move(found), std::string(kMapRemedy)});
 }
 
-/// Without its end; nothing at the end of the file, whose contents then fit their CRC-32.
+/// Returns the next line without its end, or nullopt at the end of the file, whose contents then fit their
+/// CRC-32.
 std::optional<std::string_view> UvlistStream::next_line() {
   constexpr std::size_t kPiece = 1 << 16, kLongest = 1 << 12;
   ++line_;

@@ -15,25 +15,26 @@
 
 namespace cairn {
 
-/// The columns of uvlist.txt, a table of the landmarks, one row each, for people and scripts: "id", "x" and
-/// so on. docs/map_format.md says what they hold.
+/// Returns the columns of uvlist.txt, a table of the landmarks, one row each, for people and scripts: "id",
+/// "x" and so on. docs/map_format.md says what they hold.
 [[nodiscard]] const std::vector<std::string>& uvlist_columns();
 
-/// Its first line.
+/// Returns the first line of uvlist.txt.
 [[nodiscard]] std::string uvlist_header();
 
-/// The row of landmark `number`. `covariance` is of the point, square metres.
+/// Returns the row of landmark `number` in uvlist.txt. `covariance` is of the point, square metres.
 [[nodiscard]] std::string format_uvlist_row(std::uint32_t number, const Eigen::Vector3d& point_in_world,
                                             const Eigen::Matrix3d& covariance,
                                             const LandmarkIndicators& indicators);
 
-/// uvlist.txt row by row, in memory that does not grow with it. InputError where it is missing, damaged or
-/// another one; that is known for sure after the last row.
+/// Reads uvlist.txt row by row, in memory that does not grow with it. Throws InputError if it is missing,
+/// damaged or another file; a wrong checksum is noticed after the last row.
 class UvlistStream {
  public:
-  /// `checksum` is the CRC-32 of its bytes.
+  /// Opens the file; `checksum` is the CRC-32 of its bytes.
   UvlistStream(const std::filesystem::path& path, std::optional<std::uint32_t> checksum);
-  /// A value for each column, also infinite ones; nothing after the last row. Valid until the next call.
+  /// Returns a value for each column, which may be infinite, or null after the last row. Valid until the next
+  /// call.
   [[nodiscard]] const std::vector<double>* next();
 
  private:

@@ -24,17 +24,17 @@ DepthFigures scaled(const DepthFigures& figures, double factor) {
   return {factor * figures.nearest, factor * figures.median, factor * figures.farthest};
 }
 
-/// As of a depth camera among things: it is blind below some 0.3 m and beyond 10 m.
+/// Returns whether the figures are usual for a depth camera: it is blind below some 0.3 m and beyond 10 m.
 bool is_usual(const DepthFigures& figures) {
   return figures.nearest >= 0.25 && is_between(figures.median, 0.4, 5) && figures.farthest <= 10;
 }
 
-/// Much lies nearer than a depth camera sees, or nothing is an arm's length away.
+/// Returns whether much lies nearer than a depth camera sees, or nothing is an arm's length away.
 bool is_too_near(const DepthFigures& figures) {
   return figures.median < 0.65 && (figures.nearest < 0.25 || figures.farthest < 1);
 }
 
-/// Nothing is near, and much at the end of what a depth camera sees or beyond.
+/// Returns whether nothing is near, and much at the end of what a depth camera sees or beyond.
 bool is_too_far(const DepthFigures& figures) {
   return figures.nearest > 1.8 && figures.farthest > 7.5;
 }

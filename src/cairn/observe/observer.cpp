@@ -9,9 +9,9 @@
 namespace cairn {
 namespace {
 
-/// Metres at the nearest pixel; 0 where unknown, out of range, or at a jump of depth: a corner on an outline
-/// belongs to one side, its depth may come from the other, and the inliers among these shorten the motion by
-/// 1 to 2 %.
+/// Returns the depth at the nearest pixel, metres; 0 if unknown, out of range, or at a jump of the depth: a
+/// corner on an outline belongs to one side, its depth may come from the other, and the inliers among these
+/// shorten the motion by 1 to 2 %.
 double depth_at(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise) {
   const int u = static_cast<int>(std::lround(keypoint.u)), v = static_cast<int>(std::lround(keypoint.v));
   if (!depth.contains(u, v)) return 0;
@@ -40,7 +40,7 @@ Observation make_observation(const Rig& rig, const Eigen::Vector2d& ray, const K
   return seen;
 }
 
-/// A frame whose features are not there yet.
+/// Returns a frame without features.
 ObservedFrame begin_frame(const Frame& frame) {
   return {frame.id, frame.stamp_ns, {}, {}, {}};
 }

@@ -10,31 +10,37 @@
 
 namespace cairn {
 
-/// How noisy depth is. A structured-light or stereo sensor measures disparity, so the standard deviation of a
-/// depth z is sigma_disparity_px * z^2 / (fx * baseline): with the defaults 2.3 mm at 1 m and 21 mm at 3 m,
-/// twice what Khoshelham and Elberink 2012 measured for the Kinect, as features sit where depth is worst.
+/// Describes the noise of depth images. A structured-light or stereo sensor measures disparity, so the
+/// standard deviation of a depth z is sigma_disparity_px * z^2 / (fx * baseline): with the defaults 2.3 mm at
+/// 1 m and 21 mm at 3 m, twice what Khoshelham and Elberink 2012 measured for the Kinect, because features
+/// lie where depth is worst.
 struct DepthNoise {
-  double baseline = 0.075;           ///< metres, virtual; the Kinect's own
-  double sigma_disparity_px = 0.09;  ///< pixels
-  double min_depth = 0.2;            ///< metres; nearer is noise
-  double jump_radius =
-      3.0;  ///< pixels at the lowest pyramid level: depth must be smooth this far around a feature
-  double jump_sigmas = 8.0;  ///< standard deviations of disparity: more is a jump
-  double max_depth = 8.0;    ///< metres; farther is noise
+  double baseline = 0.075;           ///< virtual baseline, metres; that of the Kinect
+  double sigma_disparity_px = 0.09;  ///< standard deviation of a disparity, pixels
+  double min_depth = 0.2;            ///< smallest depth, metres; nearer is noise
+  /// Distance of a feature from a jump of the depth below which it has no depth, pixels at the finest scale.
+  double jump_radius = 3.0;
+  double jump_sigmas = 8.0;  ///< change of disparity that is a jump, standard deviations
+  double max_depth = 8.0;    ///< largest depth, metres; farther is noise
 };
 
-/// How the left-right matches of a stereo sequence become disparities.
+/// Describes how the left-right matches of a stereo sequence become disparities.
 struct StereoNoise {
-  double min_depth = 0.5;             ///< metres: with the baseline, the largest disparity looked for
-  double min_correlation = 0.85;      ///< of the windows in both images; less is another thing or hidden
-  bool search_images = false;         ///< see StereoMatchOptions
-  double min_disparity_sigmas = 4.0;  ///< a disparity of fewer standard deviations says nothing of the depth
-  /// No disparity is better, as the pair's calibration is not: it sways with the mount, and moves all
-  /// disparities of an image alike, which many features do not average out.
+  double min_depth = 0.5;  ///< smallest depth, metres: gives, with the baseline, the largest disparity
+  /// Smallest correlation of the windows in both images; with less, they show another thing or one of them is
+  /// hidden.
+  double min_correlation = 0.85;
+  /// Search the right image itself for left features without a match, see StereoMatchOptions.
+  bool search_images = false;
+  /// Smallest disparity, in its standard deviations; a smaller one says nothing of the depth.
+  double min_disparity_sigmas = 4.0;
+  /// Part of every disparity's standard deviation that does not depend on the match, pixels: the pair's
+  /// calibration sways with the mount, and moves all disparities of an image alike, which many features do
+  /// not average out.
   double sigma_floor_px = 0.5;
 };
 
-/// What becomes of a frame's images.
+/// Holds the options of observing frames.
 struct ObserverOptions {
   FeatureOptions features;
   DepthNoise depth_noise;
@@ -47,16 +53,18 @@ struct ObserverOptions {
 /// Visits the parameters of features, depth noise (depth.*) and stereo noise (stereo.*).
 void visit(ObserverOptions& options, ParameterVisitor& visitor);
 
-/// The rig that observations are made for: a stereo sequence's own, or the undistorted RGB-D camera with the
-/// depth noise's virtual baseline.
+/// Returns the rig that observations are of: a stereo sequence's own, or the undistorted RGB-D camera with
+/// the virtual baseline of the depth noise.
 [[nodiscard]] Rig rig_of(const Calibration& calibration, const DepthNoise& noise);
 
-/// Features of a frame as observations (u, v, d) of the rig: pixels undistorted, depth read at the nearest
-/// pixel, or the disparity of the right image's feature. Features that cannot be undistorted are left out;
-/// those without depth stay, without disparity and point. Keypoints lie in the undistorted image, too.
+/// Reduces the images of a frame to features and observations (u, v, d) of the rig: pixels undistorted; depth
+/// read at the nearest pixel, or the disparity of the matching feature in the right image. Features that
+/// cannot be undistorted are left out; those without depth stay, without disparity and point. Keypoints are
+/// undistorted as well.
 class Observer {
  public:
   Observer(const Calibration& calibration, const ObserverOptions& options);
+  /// Observes a stereo frame if it has a right image, else an RGB-D frame.
   [[nodiscard]] ObservedFrame observe(const Frame& frame) const;
 
  private:

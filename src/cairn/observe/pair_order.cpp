@@ -23,7 +23,7 @@ constexpr double kMinDisparityPx = 3;
 constexpr double kMaxRowErrorPx = 2;
 constexpr double kNearest = 0.5;  // metres: with the baseline, the largest disparity
 
-/// Matches on one row, by the sign of the disparity.
+/// Counts the matches on one row by the sign of the disparity.
 struct Signs {
   int positive = 0, negative = 0;
 };
@@ -32,7 +32,7 @@ bool is_clear(int many, int few) {
   return many >= kEnough && many >= kTimes * few;
 }
 
-/// Counts what is alike in the images of one pair.
+/// Matches the images of one pair and counts the signs of the disparities.
 class SignCounter {
  public:
   explicit SignCounter(const Calibration& calibration)
@@ -65,7 +65,7 @@ Sequence exchanged(Sequence sequence) {
   return sequence;
 }
 
-/// Nothing where it cannot be read.
+/// Loads a frame. Returns nullopt if it cannot be read.
 std::optional<Frame> load(const FrameLoader& loader, FrameId id) {
   try {
     return loader.load(id);

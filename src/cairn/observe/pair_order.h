@@ -5,26 +5,27 @@
 
 namespace cairn {
 
-/// Whether the left images of a stereo sequence are the left camera's. What both cameras see lies further
-/// left in the right image (a positive disparity) and on the same row; where the two images are exchanged, so
-/// is the sign.
+/// Counts matches that tell whether the left images of a stereo sequence are the left camera's. What both
+/// cameras see lies further left in the right image (a positive disparity) and on the same row; if the two
+/// images are exchanged, the sign is as well.
 struct PairOrder {
-  int pairs = 0;      ///< that were looked at
-  int as_given = 0;   ///< matches of features on one row with a positive disparity
-  int exchanged = 0;  ///< the same with left and right exchanged, rectified for that; counted only where
-                      ///< as_given leaves a doubt
+  int pairs = 0;     ///< pairs that were examined
+  int as_given = 0;  ///< matches of features on one row with a positive disparity
+  /// Matches of features on one row with a positive disparity if left and right are exchanged, rectified for
+  /// that; counted only if as_given leaves a doubt.
+  int exchanged = 0;
 
-  /// Many matches the other way around, and few as given. False also where there are few either way: poor
-  /// texture, or a scene so far away that it has no disparity.
+  /// Returns whether there are many matches with the images exchanged, and few as given. Returns false if
+  /// there are few in both cases: poor texture, or a scene so far away that it has no disparity.
   [[nodiscard]] bool looks_exchanged() const;
 };
 
-/// Matches features of a few pairs of the sequence, from its beginning to its end, as far as is needed to
-/// decide: one pair where the order is right and the texture good. Pairs that cannot be read are passed over.
-/// Nothing is counted for a sequence without right images.
+/// Matches features of a few pairs over the whole sequence, as many as are needed to decide: one pair if the
+/// order is right and the texture good. Pairs that cannot be read are ignored. Counts nothing for a sequence
+/// without right images.
 [[nodiscard]] PairOrder measure_pair_order(const Sequence& sequence);
 
-/// InputError with the figures and the way out where the images look exchanged.
+/// Throws InputError with the figures and the remedy if the images look exchanged.
 void check_pair_order(const Sequence& sequence);
 
 }  // namespace cairn

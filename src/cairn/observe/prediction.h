@@ -10,29 +10,29 @@
 
 namespace cairn {
 
-/// How a point looked in an earlier view.
+/// Describes how a point looked in an earlier view.
 struct Appearance {
   const Descriptors* descriptors = nullptr;
   std::size_t row = 0;
   Keypoint keypoint;
-  Eigen::Vector3d centre_in_world;  ///< of the camera then
+  Eigen::Vector3d centre_in_world;  ///< centre of the camera of that view
 };
 
-/// A frame, and where its camera is taken to be.
+/// Holds an observed frame and the pose that its camera is taken to have.
 struct PosedFrame {
   const Rig& rig;
   const ObservedFrame& observed;
   Rigid3 camera_from_world;
 };
 
-/// Where a point should be seen: nothing behind the camera, from a direction more than 60 degrees away from
-/// that of its appearance, or at more than five times its distance or less than a fifth. `radius_px` is for
-/// the lowest pyramid level and grows with the expected one.
+/// Predicts where a point should be seen. Returns nullopt if it is behind the camera, if it is seen from a
+/// direction more than 60 degrees away from that of its appearance, or at more than five times its distance
+/// or less than a fifth. `radius_px` is the radius at the finest scale and grows with the expected scale.
 [[nodiscard]] std::optional<SearchWindow> predict_window(const PosedFrame& view,
                                                          const Eigen::Vector3d& point_in_world,
                                                          const Appearance& appearance, double radius_px);
 
-/// The descriptors, in this order; all of one kind.
+/// Returns the descriptors of the appearances, in their order; all must be of one kind.
 [[nodiscard]] Descriptors gather(std::span<const Appearance> appearances);
 
 }  // namespace cairn

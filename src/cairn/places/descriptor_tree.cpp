@@ -15,7 +15,7 @@ namespace {
 constexpr auto kNowhere = static_cast<std::size_t>(-1);  // the place of a leaf that is the whole tree
 constexpr std::size_t kLineBytes = 64;                   // of a cache
 
-/// Room for a few more at a time: most leaves are small, and memory is what limits the tree.
+/// Appends with room for a few more values only: most leaves are small, and memory is what limits the tree.
 template <class T>
 void append_sparingly(std::vector<T>& values, const T* begin, std::size_t count) {
   constexpr std::size_t kFewestMore = 8, kShareMore = 8;
@@ -29,7 +29,7 @@ const DescriptorTreeOptions& validated(const DescriptorTreeOptions& options) {
   return options;
 }
 
-/// Of a child that is a leaf.
+/// Returns the index of the leaf that a child is.
 std::size_t leaf_index(std::int32_t child) {
   const std::int32_t index = ~child;
   return static_cast<std::size_t>(index);
@@ -160,7 +160,7 @@ void DescriptorTree::add(const Descriptors& descriptors, std::size_t i, std::int
   if (leaf.owners.size() > leaf.capacity) cut(place);
 }
 
-/// At most `branching` rows, no two alike, one after the other.
+/// Chooses at most `branching` rows of a leaf, no two equal, one after the other.
 std::vector<std::uint64_t> DescriptorTree::choose_centres(const Leaf& leaf) {
   std::vector<std::uint32_t> order(leaf.owners.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -176,7 +176,7 @@ std::vector<std::uint64_t> DescriptorTree::choose_centres(const Leaf& leaf) {
   return centres;
 }
 
-/// A branch with these centres and no leaves yet.
+/// Appends a branch with the given centres and no leaves yet.
 std::int32_t DescriptorTree::append_branch(const std::vector<std::uint64_t>& centres) {
   const auto branch = static_cast<Child>(used_.size());
   used_.push_back(static_cast<std::int32_t>(centres.size() / words_));
@@ -186,8 +186,8 @@ std::int32_t DescriptorTree::append_branch(const std::vector<std::uint64_t>& cen
   return branch;
 }
 
-/// The leaf at `place` gives its rows to one leaf for each centre and leaves the place to a branch. Where all
-/// centres are alike there is nothing to cut, and the leaf may grow to twice the size.
+/// Divides the leaf at `place`: its rows go to one leaf for each centre, and a branch takes its place. If all
+/// centres are equal, there is nothing to divide, and the leaf may grow to twice the size.
 void DescriptorTree::cut(std::size_t place) {
   const std::size_t index = place == kNowhere ? 0 : leaf_index(children_[place]);
   const std::vector<std::uint64_t> centres = choose_centres(leaves_[index]);
@@ -231,7 +231,7 @@ void DescriptorTree::Descent::take_cheapest() {
   --wanted;
 }
 
-/// From a branch to its nearest child; remembers the others as far as they may be wanted.
+/// Steps from a branch to its nearest child, and remembers the others as far as they may be wanted.
 void DescriptorTree::step_down(const std::uint64_t* row, Descent& descent,
                                std::vector<std::int32_t>& distances) const {
   const std::size_t nearest = nearest_child(row, descent.at.child, distances);
@@ -246,7 +246,7 @@ void DescriptorTree::step_down(const std::uint64_t* row, Descent& descent,
   descent.at.child = children_[nearest];
 }
 
-/// Takes all to leaves, by turns, so that the memory has time to bring what each needs next.
+/// Takes all descents to leaves, by turns, so that the memory has time to bring what each needs next.
 void DescriptorTree::descend(const Descriptors& queries, std::vector<Descent>& descents) const {
   std::vector<std::int32_t> distances;
   for (bool moved = true; moved;) {

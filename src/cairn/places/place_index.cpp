@@ -16,7 +16,7 @@ namespace {
 
 using Slot = std::int32_t;
 
-/// Descriptor `query` of the query matches something of keyframe `slot`.
+/// Says that descriptor `query` of the query matches something of keyframe `slot`.
 struct Vote {
   std::int32_t query;
   Slot slot;
@@ -31,7 +31,7 @@ class LeafVoting {
              std::int32_t max_measured)
       : tree_(tree), descriptors_(descriptors), admitted_(admitted), max_measured_(max_measured) {}
 
-  /// `visits`: all of one leaf.
+  /// Collects the votes in one leaf; `visits` are all those of that leaf.
   void vote(std::span<const Visit> visits, std::vector<Vote>& votes) {
     const DescriptorTree::Leaf& leaf = tree_.leaf(visits.front().leaf);
     nearest_.assign(leaf.owners.size(), {kNoDistance, -1});
@@ -68,7 +68,7 @@ std::vector<Vote> collect_votes(const DescriptorTree& tree, const Descriptors& d
   return votes;
 }
 
-/// The slots that each descriptor of the query votes for, each once.
+/// Returns the slots that each descriptor of the query votes for, each once.
 std::vector<std::vector<Slot>> slots_by_query(const std::vector<Vote>& votes, std::size_t queries) {
   std::vector<std::vector<Slot>> slots(queries);
   for (const Vote& vote : votes) slots[static_cast<std::size_t>(vote.query)].push_back(vote.slot);
@@ -79,7 +79,7 @@ std::vector<std::vector<Slot>> slots_by_query(const std::vector<Vote>& votes, st
   return slots;
 }
 
-/// Scores by slot of as many as `slots`, of which `documents` are admitted.
+/// Returns the scores of `slots` slots, of which `documents` are admitted.
 std::vector<double> score(const std::vector<std::vector<Slot>>& voted_for, std::size_t slots,
                           std::size_t documents) {
   std::vector<double> scores(slots, 0.0);
@@ -122,8 +122,8 @@ void PlaceIndex::take_kind(const Descriptors& descriptors) {
   if (!tree_) tree_.emplace(kind_, options_.tree);
 }
 
-/// Descriptors of one image show different points. Some pairs are enough, which lie far apart in the list,
-/// as neighbours in it may be so in the image.
+/// Measures distances of descriptors of one image, which show different points. Some pairs are enough; they
+/// lie far apart in the list, as neighbours in it may be neighbours in the image.
 void PlaceIndex::measure_unrelated(const Descriptors& descriptors) {
   constexpr std::size_t kPairs = 64;
   const std::size_t half = descriptors.count() / 2, pairs = std::min(half, kPairs);
@@ -137,8 +137,8 @@ void PlaceIndex::measure_unrelated(const Descriptors& descriptors) {
   unrelated_count_ += pairs;
 }
 
-/// As the kernels measure: bits, or the square. Nothing but equal ones match as long as no keyframe has had
-/// two descriptors.
+/// Returns the limit as the kernels measure distances: bits, or the square. Only equal descriptors match as
+/// long as no keyframe has had two descriptors.
 std::int32_t PlaceIndex::max_measured() const {
   if (unrelated_count_ == 0) return 0;
   const double limit = options_.max_distance_share * unrelated_sum_ / static_cast<double>(unrelated_count_);

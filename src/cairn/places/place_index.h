@@ -13,30 +13,32 @@
 
 namespace cairn {
 
-/// A keyframe that may show the place asked for.
+/// Holds a keyframe that may show the place asked for.
 struct PlaceCandidate {
   std::int32_t id = 0;
-  double score = 0;  ///< (0, 1]: share of what the descriptors asked for say that this keyframe says, too
+  double score = 0;  ///< share of the query's weight that matches this keyframe, in (0, 1]
   bool operator==(const PlaceCandidate&) const = default;
 };
 
+/// Holds the options of a PlaceIndex.
 struct PlaceIndexOptions {
-  /// Two descriptors show one point where their distance is at most this share of the mean distance of
-  /// descriptors that show different ones, which the index measures. ORB: 55 bits of 122; SIFT: 230 of 510.
+  /// Largest distance of descriptors that show one point, as a share of the mean distance of descriptors that
+  /// show different ones, which the index measures. ORB: 55 bits of 122; SIFT: 230 of 510.
   double max_distance_share = 0.45;
-  /// Leaves of the tree that are looked into for each descriptor: a second one finds those that lie across a
-  /// border, more of them find hardly better places.
+  /// Leaves of the tree that are searched for each descriptor: a second one finds neighbours across a border;
+  /// further ones hardly find better places.
   int leaves_per_descriptor = 2;
   DescriptorTreeOptions tree = {};
 
-  /// PreconditionError for a number out of its range.
+  /// Throws PreconditionError for a number out of its range.
   void validate() const;
 };
 
-/// Says which keyframes look like an image, whatever the poses. It needs no vocabulary from elsewhere: the
-/// keyframes' own descriptors, of any norm and size, are kept in a DescriptorTree, which grows with the map.
+/// Finds the keyframes that look like an image, whatever the poses. It needs no vocabulary from elsewhere:
+/// the keyframes' own descriptors, of any norm and size, are kept in a DescriptorTree, which grows with the
+/// map.
 ///
-/// Descriptor i of a query matches keyframe k where one of k's is at most the limit away and is nearer to no
+/// Descriptor i of a query matches keyframe k if one of k's is at most the limit away and is nearer to no
 /// other descriptor of the query (so that one thing seen once is not counted twice); this is voting in an
 /// inverted file with the descriptor itself to check what a cell alone cannot tell (Jegou, Douze and Schmid
 /// 2008, sec. 4). If n_i of N keyframes match it, it weighs w_i = ln((N + 1) / max(n_i, 1)), the inverse
@@ -44,29 +46,30 @@ struct PlaceIndexOptions {
 /// weighs nothing. The score is sum of w_i over what k matches / sum of all w_i. Keyframes that are not
 /// admitted count in neither n_i nor N.
 ///
-/// Results depend on the calls and their order alone. Several threads may ask at once, none while another
-/// adds or removes.
+/// Results depend on the calls and their order alone. Several threads may query at once, but not while
+/// another adds or removes.
 class PlaceIndex {
  public:
   explicit PlaceIndex(const PlaceIndexOptions& options = {});
 
-  /// PreconditionError for an id that is in the index, or descriptors of another kind than those before.
+  /// Adds a keyframe. Throws PreconditionError if the id is in the index, or if the descriptors are of
+  /// another kind than those before.
   void add(std::int32_t id, const Descriptors& descriptors);
 
-  /// PreconditionError for an id that is not in the index.
+  /// Removes a keyframe. Throws PreconditionError if the id is not in the index.
   void remove(std::int32_t id);
 
   [[nodiscard]] std::size_t size() const { return slots_.size(); }
   [[nodiscard]] bool contains(std::int32_t id) const { return slots_.count(id) > 0; }
 
-  /// At most `max_candidates` with a positive score, best first, of equal ones the lower id first. `admit`
-  /// says which ids may come; none given: all. It is asked once for each, in no meaningful order.
-  /// PreconditionError for descriptors of another kind.
+  /// Returns at most `max_candidates` keyframes with a positive score, best first, and the lower id first if
+  /// equal. `admit` says which ids are admitted; without it all are. It is called once for each, in no
+  /// particular order. Throws PreconditionError for descriptors of another kind.
   [[nodiscard]] std::vector<PlaceCandidate> query(const Descriptors& descriptors, std::size_t max_candidates,
                                                   const std::function<bool(std::int32_t)>& admit = {}) const;
 
  private:
-  /// A keyframe's place in the order of addition. It is used once.
+  /// Position of a keyframe in the order of addition, which is used once.
   using Slot = std::int32_t;
   struct Keyframe {
     std::int32_t id;

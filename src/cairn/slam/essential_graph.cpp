@@ -16,7 +16,7 @@ PoseGraph::Edge edge_as_placed(const Map& map, KeyframeId a, KeyframeId b) {
   return {a.value, b.value, a_from_b, edge_information(map, b), false};
 }
 
-/// The nearest ancestor that is not erased.
+/// Returns the nearest ancestor that is not erased.
 KeyframeId living_parent(const Map& map, KeyframeId id) {
   KeyframeId parent = map[id].parent;
   while (parent.valid() && map[parent].erased) parent = map[parent].parent;
@@ -40,7 +40,7 @@ std::int32_t component_of(const Map& map, std::int64_t vertex) {
   return map[keyframe_of(vertex)].component;
 }
 
-/// The edge between the keyframes, or those that know where these were.
+/// Returns the edge with each erased keyframe replaced by its nearest ancestor that is left.
 PoseGraph::Edge between_living(const Map& map, const PoseGraph::Edge& edge) {
   const KeyframeId a = keyframe_of(edge.a), b = keyframe_of(edge.b);
   const KeyframeId living_a = map[a].erased ? living_parent(map, a) : a;

@@ -8,16 +8,16 @@
 
 namespace cairn {
 
-/// What each tracked frame saw of the map, kept small, so that its pose can be solved for once more when the
-/// map is at its best.
+/// Stores the observations of landmarks of each tracked frame, in single precision, so that its pose can be
+/// solved again when the map is complete.
 class FrameMemory {
  public:
-  /// The frame at position `index` of the run's frames.
+  /// Stores the observations of a frame; `index` is its position in the `frames` given to refine().
   void remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked);
 
-  /// Solves for the poses of the remembered frames that are no keyframes any more, in the map as it is now. A
-  /// frame keeps its place by its keyframe where too few of its landmarks are left or agree. Deterministic at
-  /// any number of threads.
+  /// Solves again for the poses of the stored frames that are not keyframes, in the map as it is now. A frame
+  /// keeps its pose relative to its keyframe if fewer than min_inliers of its landmarks, or fewer than half
+  /// of its former inliers, agree. Deterministic at any number of threads.
   void refine(const Map& map, const SlamOptions& options, const Executor& executor,
               std::vector<TrackingResult>& frames) const;
 

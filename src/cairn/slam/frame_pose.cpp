@@ -9,7 +9,7 @@
 namespace cairn {
 namespace {
 
-/// The landmarks that a frame shows already, as found points.
+/// Returns the correspondences of the landmarks that a frame shows already.
 std::vector<Correspondence> points_seen(const Map& map, const FramePose& tracked) {
   std::vector<Correspondence> seen;
   for (std::size_t i = 0; i < tracked.landmarks.size(); ++i) {

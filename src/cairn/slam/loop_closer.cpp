@@ -14,7 +14,7 @@
 namespace cairn {
 namespace {
 
-/// Whether most landmarks that the frame shows at the place found fit its present place, too.
+/// Returns whether most landmarks that the frame shows at the pose found also fit its present pose.
 bool agrees_with_map(const Map& map, KeyframeId keyframe, const FramePose& found) {
   const Rigid3 camera_from_world = map[keyframe].world_from_camera.inverse();
   int seen = 0, fit = 0;
@@ -28,7 +28,8 @@ bool agrees_with_map(const Map& map, KeyframeId keyframe, const FramePose& found
   return 2 * fit > seen;
 }
 
-/// A loop from the current keyframe to a candidate that shows the same place.
+/// Returns the loop from the current keyframe to a candidate that shows the same place, or nullopt if it is
+/// not verified.
 std::optional<LoopHypothesis> loop_to(const Map& map, KeyframeId candidate, KeyframeId current,
                                       const SlamOptions& options) {
   const ObservedFrame& observed = map[current].observed;
@@ -46,8 +47,8 @@ PoseGraph::Edge edge_of(const Map& map, const LoopHypothesis& loop) {
           edge_information(map, loop.current), false};
 }
 
-/// Whether the keyframes from the candidate to the current one give way to a loop only by more than their
-/// edges may be wrong: all others hold where they are, and would hide it.
+/// Returns whether the loop strains the edges from the candidate to the current keyframe beyond what they may
+/// be wrong by. Other edges are not counted: they hold where they are, and would hide it.
 bool is_strained(const PoseGraph& graph, const PoseGraphReport& report, const LoopHypothesis& loop) {
   constexpr double kDegreesOfFreedom = 6;
   constexpr double kMeanSquare = 4.0;  // 2 standard deviations in all edges at once
@@ -120,8 +121,8 @@ bool LoopCloser::close(KeyframeId keyframe) {
   return true;
 }
 
-/// The younger component moves: the world is where it began. False, and nothing is done, where the camera
-/// cannot have come from the one to the other in the time between.
+/// Moves the younger component, because the world is that of the older one. Returns false and changes nothing
+/// if the camera cannot have come from one to the other in the time between.
 bool LoopCloser::join_components(const LoopHypothesis& loop) {
   const std::int32_t component = map_[loop.current].component, into = map_[loop.candidate].component;
   const Rigid3 into_from_component = map_[loop.candidate].world_from_camera * loop.candidate_from_current *

@@ -12,27 +12,29 @@
 
 namespace cairn {
 
+/// Counts the candidates for loops, and what became of the loops found.
 struct LoopReport {
-  int tried = 0;        ///< candidates that were matched with a keyframe
-  int verified = 0;     ///< of these, held by geometry
-  int rejected = 0;     ///< of these, more than the odometry may have drifted by, or against the graph
-  int unconfirmed = 0;  ///< of these, never said again by a second keyframe
-  int joined = 0;       ///< landmarks were joined, as the places agreed already
-  int closed = 0;       ///< the map was bent together
-  int components_joined = 0;
+  int tried = 0;     ///< candidates that were matched with a keyframe
+  int verified = 0;  ///< candidates that passed the geometric verification
+  int rejected = 0;  ///< loops refused: larger than the drift of odometry, or in conflict with the pose graph
+  int unconfirmed = 0;        ///< loops that no second keyframe confirmed
+  int joined = 0;             ///< loops that the poses fitted already: only landmarks were fused
+  int closed = 0;             ///< loops closed by optimising the pose graph of a component
+  int components_joined = 0;  ///< loops by which two components were joined
 };
 
-/// Recognises places, and bends the map together where the camera has come back to one. Deterministic at any
-/// number of threads.
+/// Recognises places that the camera has come back to, and closes the loops. Deterministic at any number of
+/// threads.
 class LoopCloser {
  public:
   LoopCloser(const SlamOptions& options, const Executor& executor, IndexedMap& indexed);
 
-  /// Tries the newest keyframe against keyframes that look like it and lie elsewhere in the map, and closes
-  /// the loop that is found. Returns whether keyframes moved.
+  /// Searches for a loop from `keyframe`, the newest, to keyframes that look like it and are not its
+  /// neighbours, and closes the one with the most inliers if it is believed (LoopJudge). Returns whether
+  /// keyframes moved.
   bool close(KeyframeId keyframe);
   [[nodiscard]] const LoopReport& report() const { return report_; }
-  /// The loops that were closed, as measured.
+  /// Returns the closed loops as edges of a pose graph, with the motions as measured.
   [[nodiscard]] const std::vector<PoseGraph::Edge>& edges() const { return edges_; }
 
  private:

@@ -6,15 +6,15 @@
 namespace cairn {
 namespace {
 
-// The share of the way that an odometry may be wrong by, with a good margin: a few percent are usual.
+// Largest error of odometry as a share of the path, with a good margin: a few percent are usual.
 constexpr double kDriftShare = 0.1;
 constexpr double kDriftMetres = 0.5;
 constexpr double kDriftRadians = 0.3;
 constexpr double kDriftRadiansPerMetre = 0.01;
 
 constexpr int kConfirmWithin = 10;  // keyframes
-// Two corrections are the same: what two measurements of one place differ by, and what odometry drifts by
-// between them.
+// Largest difference of two corrections that are taken as equal: the noise of two measurements of one place,
+// and the drift of odometry between them.
 constexpr double kSameShare = 0.2;
 constexpr double kSameMetres = 0.1;
 constexpr double kSameRadians = 0.05;

@@ -19,7 +19,7 @@ int points_with_depth(const ObservedFrame& frame) {
 
 }  // namespace
 
-/// An adjustment under way.
+/// Holds a running adjustment.
 struct Mapper::Adjustment {
   Window window;
   BundleReport report;
@@ -113,7 +113,8 @@ void Mapper::keep_covariances(const Window& whole, const BundleReport& report) {
     covariances_[static_cast<std::size_t>(whole.points[p].value)] = covariances[p];
 }
 
-/// Adjustments hold some keyframes of a window, not always the first: the world is where it was made.
+/// Moves a component back to where its first keyframe was made: adjustments hold some keyframes of a window
+/// fixed, not always the first.
 void Mapper::put_back(std::int32_t component) {
   for (const KeyframeId id : map_.keyframe_ids()) {
     if (map_[id].component != component) continue;

@@ -15,35 +15,40 @@
 
 namespace cairn {
 
-/// Lets the map grow by keyframes and keeps it right: landmarks, and after each keyframe an adjustment of the
-/// window around it. The adjustment runs beside tracking on a copy; its result is taken over a fixed
-/// number of frames after its start, or before the next keyframe, so that the map does not depend on timing.
+/// Extends the map by keyframes and landmarks, and after each keyframe adjusts the window around it. The
+/// adjustment runs beside tracking on a copy; its result is applied a fixed number of frames after its start,
+/// or before the next keyframe, so that the map does not depend on timing.
 class Mapper {
  public:
   Mapper(const SlamOptions& options, const Executor& executor, IndexedMap& indexed, StageTimes& times);
   ~Mapper();
 
-  /// The first keyframe of a component, where the frame has enough depth and none fitted for lost_frames.
+  /// Makes a frame that could not be tracked the first keyframe of a new component. Returns nullopt if fewer
+  /// than min_matches of its features have a depth, or if the map has keyframes and fewer than lost_frames
+  /// such frames have come since the last call of found().
   std::optional<KeyframeId> begin_component(const ObservedFrame& frame);
-  /// The camera is not lost.
+  /// Restarts the count of lost frames; to be called for each tracked frame.
   void found() { good_lost_frames_ = 0; }
-  /// Makes a keyframe of a tracked frame, with the landmarks that it shows. No adjustment may be under way.
+  /// Makes a keyframe of a tracked frame, in the component of `parent`: adds landmarks by depth and fuses
+  /// duplicates. Throws PreconditionError if an adjustment is running.
   KeyframeId insert(const ObservedFrame& frame, const FramePose& tracked, KeyframeId parent);
-  /// Erases neighbours of the keyframe that have become redundant, and starts the adjustment of the window
-  /// around it. No adjustment may be under way.
+  /// Erases redundant neighbours of the keyframe (cull_keyframes), and starts the adjustment of the window
+  /// around it. Throws PreconditionError if an adjustment is running.
   void start_adjustment(KeyframeId keyframe);
-  /// To be called once for each frame: takes an adjustment over whose time has come. True: the map moved.
+  /// Applies the running adjustment if more than window_lag frames have come since its start. To be called
+  /// once for each frame. Returns whether the map moved.
   bool apply_adjustment_if_due();
-  /// Takes the adjustment over that is under way, if any. True: the map moved.
+  /// Waits for the running adjustment, if any, and applies it. Returns whether the map moved.
   bool apply_adjustment();
-  /// After the last frame: adjusts the whole map.
+  /// Applies the running adjustment, adjusts each component as a whole unless `odometry` is set, and moves
+  /// each back to where its first keyframe was made. To be called after the last frame.
   void finish();
 
-  /// After finish: of each landmark's point in the world, square metres, the keyframes taken as exact; zeros
-  /// where unknown. None where the map was not adjusted.
+  /// Returns, after finish(), the covariance of each landmark's point in the world by id, square metres, with
+  /// the keyframes taken as exact; zeros if it is unknown. Empty if `odometry` is set.
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& covariances() const { return covariances_; }
-  /// Fills two graphs of the keyframes, joined by odometry and the `loops` given: placed by odometry alone,
-  /// and as they are now.
+  /// Fills two pose graphs of all keyframes with edges of odometry and the given `loops`: `before` has the
+  /// poses by odometry alone, `after` the present ones.
   void fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const;
 
  private:
@@ -61,7 +66,7 @@ class Mapper {
   std::unique_ptr<Adjustment> adjustment_;
   std::vector<Eigen::Matrix3d> covariances_;
   struct Step {
-    Rigid3 parent_from_new;  // of a first keyframe its place in the world
+    Rigid3 parent_from_new;  // world_from_new of a first keyframe
     Matrix6d information;
   };
   std::vector<Step> odometry_;  // of each keyframe, when it was made

@@ -8,7 +8,7 @@
 namespace cairn {
 namespace {
 
-/// The landmark that has more observations stays; of equal ones the older.
+/// Makes one landmark of two: the one with more observations stays; if equal, the older.
 void merge_two(Map& map, LandmarkId a, LandmarkId b) {
   const std::size_t in_a = map[a].observations.size(), in_b = map[b].observations.size();
   const bool keep_a = in_a != in_b ? in_a > in_b : a < b;
@@ -20,7 +20,8 @@ bool shows(const Landmark& landmark, KeyframeId keyframe) {
                      [&](const ObservationRef& s) { return s.keyframe == keyframe; });
 }
 
-/// Looks for landmarks in a keyframe that does not show them.
+/// Searches a keyframe for those of `landmarks` that it does not show, and fuses what is found. Returns how
+/// many.
 int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyframe,
               const SlamOptions& options) {
   std::vector<LandmarkId> wanted;
@@ -43,7 +44,7 @@ int join_into(Map& map, std::span<const LandmarkId> landmarks, KeyframeId keyfra
   return joined;
 }
 
-/// Three other keyframes show it at the same or a finer scale.
+/// Returns whether three other keyframes show the landmark at the same or a finer scale.
 bool is_seen_as_well(const Map& map, const Landmark& landmark, KeyframeId keyframe, float sigma_px) {
   constexpr float kNextLevel = 1.25F;
   constexpr int kOthers = 3;

@@ -40,8 +40,8 @@ std::uint64_t seed_of(const SlamOptions& options, const ObservedFrame& reference
   return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
 }
 
-/// False where the inliers leave a direction open: all on a line, or all far away. `depth` is a usual one of
-/// theirs, metres.
+/// Returns whether the inliers determine the motion; they do not if all are on a line or far away. `depth` is
+/// a typical depth of theirs, metres.
 bool is_determined(const Matrix6d& covariance, double depth) {
   constexpr double kMaxRotationStd = 0.02;  // radians
   constexpr double kMaxShareOfDepth = 0.01;

@@ -11,21 +11,22 @@
 
 namespace cairn {
 
-/// A frame found in the map without a prediction.
+/// Holds the pose of a frame that was found in the map without a prediction.
 struct Relocalization {
-  KeyframeId keyframe;  ///< that it was matched with
+  KeyframeId keyframe;  ///< keyframe that the frame was matched with
   FramePose tracked;
 };
 
-/// Tries the keyframes that look most like the frame, the last relocalization_keyframes and random_loops
-/// others: matches descriptors, verifies by geometry (loop_min_inliers), takes the one with the most inliers
-/// and refines its pose in the map around it. Deterministic at any number of threads.
+/// Searches the map for a frame without a prediction. Tries the place_loops keyframes that look most like it,
+/// the last relocalization_keyframes and random_loops others; verifies each by geometry (verify_place); takes
+/// the one with the most inliers and refines the pose in the map around it. Returns nullopt if none is
+/// verified. Deterministic at any number of threads.
 [[nodiscard]] std::optional<Relocalization> relocalize(const IndexedMap& indexed,
                                                        const ObservedFrame& observed,
                                                        const SlamOptions& options, const Executor& executor);
 
-/// `nearby` keyframes before `before` (itself excluded), nearest first, then `random` of all earlier ones,
-/// drawn without replacement from (seed, stream). Erased ones are passed over.
+/// Returns the last `nearby` keyframes before keyframe `before`, nearest first, then `random` earlier ones,
+/// drawn without replacement by (seed, stream). Erased keyframes are left out.
 [[nodiscard]] std::vector<KeyframeId> candidate_keyframes(const Map& map, KeyframeId before, int nearby,
                                                           int random, std::uint64_t seed,
                                                           std::uint64_t stream);

@@ -43,7 +43,7 @@ void require_same(const Map& start, const Rig& rig, const SlamOptions& options) 
                       fmt::format("Run with --set detector={0} --set descriptor={0}.", start.descriptor())});
 }
 
-/// One run under way.
+/// Carries out one run.
 class SlamPipeline {
  public:
   SlamPipeline(const SlamOptions& options, const Executor& executor, SlamResult& result)
@@ -109,7 +109,7 @@ class SlamPipeline {
     result_.times.loops.push_back(watch.seconds());
   }
 
-  /// The frame that was tracked last is this keyframe.
+  /// Makes the keyframe, made of the last frame, the reference of tracking.
   void refer_to(KeyframeId keyframe, TrackingResult& track) {
     tracker_.refer_to(keyframe);
     track.reference = keyframe;
@@ -126,7 +126,7 @@ class SlamPipeline {
   FrameMemory memory_;
 };
 
-/// The options with the median time between neighbours, unless they say another.
+/// Returns the options with the median time between neighbouring frames, unless they state another.
 SlamOptions with_frame_period(const SlamOptions& given, const Sequence& sequence) {
   SlamOptions options = given;
   std::vector<std::int64_t> periods;
@@ -139,7 +139,7 @@ SlamOptions with_frame_period(const SlamOptions& given, const Sequence& sequence
   return options;
 }
 
-/// Frames that would have been tracked, were it not for max_motion.
+/// Warns of frames that were refused because of max_motion.
 void warn_of_refused(const SlamResult& result, const SlamOptions& options, Progress& progress) {
   const auto refused =
       std::count_if(result.frames.begin(), result.frames.end(), [](const TrackingResult& track) {

@@ -18,31 +18,35 @@
 
 namespace cairn {
 
+/// Holds the result of a run of SLAM.
 struct SlamResult {
-  std::vector<TrackingResult> frames;        ///< one for each frame that was decoded, in order
-  std::vector<std::string> unreadable;       ///< messages of frames that were skipped
-  Map map;                                   ///< after the last adjustment
-  std::vector<Eigen::Matrix3d> covariances;  ///< of its landmarks' points, see Mapper::covariances
+  std::vector<TrackingResult> frames;   ///< one for each decoded frame, in order
+  std::vector<std::string> unreadable;  ///< messages about the frames that were skipped
+  Map map;                              ///< map after the last adjustment
+  /// Covariances of the landmarks' points, see Mapper::covariances.
+  std::vector<Eigen::Matrix3d> covariances;
   PoseGraph graph_before,
       graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
   StageTimes times;
-  std::size_t start_keyframes = 0;  ///< of the map that the run went on from; 0: it began with none
-  bool stopped = false;             ///< the user stopped before the last frame
+  std::size_t start_keyframes = 0;  ///< keyframes of the map that the run started with; 0 without one
+  bool stopped = false;             ///< whether the user stopped the run before the last frame
 
-  /// The component of the map with the most frames: the one that trajectories and outputs are of.
+  /// Returns the component of the map with the most tracked frames, which trajectories and outputs are of; 0
+  /// if no frame was tracked.
   [[nodiscard]] std::int32_t main_component() const;
-  /// world_from_camera of every frame that was tracked in the main component, carried by its keyframe's pose.
+  /// Returns world_from_camera of each frame that was tracked in the main component, by its pose relative to
+  /// its keyframe.
   [[nodiscard]] Trajectory trajectory() const;
+  /// Returns world_from_camera of each keyframe of this sequence in the main component.
   [[nodiscard]] Trajectory keyframe_trajectory() const;
 };
 
-/// SLAM with an RGB-D or stereo sequence: observe, track, map, close loops, adjust. A frame that cannot be
-/// decoded is reported and skipped; where none can, that is an InputError. The same bits at any number of
-/// threads. InputError for a sequence without depth or right images and for options out of range. With a
-/// `start` map, of an earlier run, the camera is looked for in it, and the map goes on growing; its keyframes
-/// have no frame in this sequence (FrameId not valid). InputError where it was made with another camera or
-/// another kind of descriptor.
+/// Runs SLAM on an RGB-D or stereo sequence: observes, tracks, maps, closes loops, adjusts. Reports and skips
+/// frames that cannot be decoded. The same bits at any number of threads. A `start` map, of an earlier run,
+/// is searched for the camera and extended; its keyframes have no frame in this sequence (FrameId not valid).
+/// Throws InputError for a sequence without depth or right images, for options out of range, if no frame can
+/// be decoded, and if the `start` map was made with another camera or kind of descriptor.
 [[nodiscard]] SlamResult run_slam(const Sequence& sequence, const SlamOptions& options,
                                   const Executor& executor, Progress& progress,
                                   std::optional<Map> start = std::nullopt);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWeakShare = 0.25;  // of the motion that else makes a keyframe
 
-/// The points that a frame's features show: of landmarks, or by depth, in the world.
+/// Returns the points in the world that a frame's features show: those of landmarks, else those by depth.
 std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& observed,
                                           const FramePose& tracked) {
   std::vector<Eigen::Vector3d> points(observed.observations.size());
@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> points_shown(const Map& map, const ObservedFrame& o
 Tracker::Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed)
     : options_(options), executor_(executor), indexed_(indexed), map_(indexed.map()) {}
 
-/// What the last frame shows, landmarks and other points, in this frame.
+/// Searches the frame for the landmarks and other points that the last frame shows.
 std::vector<Correspondence> Tracker::find_shown_before(const PosedFrame& frame, double radius_px) const {
   GuidedSearch search(frame, radius_px);
   const auto points = points_shown(map_, observed_, last_);
@@ -85,8 +85,9 @@ std::optional<FramePose> Tracker::match_last(const ObservedFrame& frame, Trackin
   return current;
 }
 
-/// By the predicted motion; where that finds much less than the last frame showed, or nothing is known to
-/// predict by, also without: points far away agree with nearly any motion, and so with a wrong one.
+/// Finds the pose by the predicted motion. Also matches without it if that finds much less than the last
+/// frame showed, or if no motion is known: points far away agree with nearly any motion, and so with a wrong
+/// one.
 std::optional<FramePose> Tracker::follow(const ObservedFrame& frame, TrackingResult& track) const {
   std::optional<FramePose> current = follow_motion(frame);
   if (current && motion_known_ && 2 * current->inliers >= last_.inliers) return current;
@@ -95,7 +96,7 @@ std::optional<FramePose> Tracker::follow(const ObservedFrame& frame, TrackingRes
   return current;
 }
 
-/// False, and why in `track`, for a pose that the camera cannot have come to.
+/// Returns false, with the reason in `track`, if the camera cannot have come to the pose.
 bool Tracker::admit(const ObservedFrame& frame, const FramePose& current, KeyframeId reference,
                     TrackingResult& track) const {
   if (known_.allow(map_, reference, current.world_from_camera, frame.stamp_ns, options_)) return true;
@@ -124,7 +125,7 @@ bool Tracker::is_keyframe_due(const ObservedFrame& frame, const FramePose& curre
   return !(view_change <= options_.mapping.view_change);  // without a depth, too
 }
 
-/// The keyframe that shows most of what the frame shows.
+/// Makes the keyframe that shows most of what the frame shows the reference.
 void Tracker::refer_to_best(const FramePose& current) {
   const auto views = keyframes_showing(map_, current.landmarks);
   if (!views.empty()) reference_ = views.front().keyframe;

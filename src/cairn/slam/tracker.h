@@ -10,14 +10,14 @@
 
 namespace cairn {
 
-/// What became of one frame.
+/// Holds the result of tracking one frame.
 struct TrackingResult {
   FrameId frame;
   std::int64_t stamp_ns = 0;
   TrackingStatus status = TrackingStatus::lost;
-  bool relocalized = false;  ///< found again after being lost
-  std::optional<KeyframeId>
-      reference;  ///< where the pose is known: relative to this keyframe, its own if it is one
+  bool relocalized = false;             ///< found by relocalisation, that is, without a prediction
+  std::optional<KeyframeId> reference;  ///< keyframe that the pose is relative to, its own if it is one;
+                                        ///< nullopt if the pose is not known
   Rigid3 reference_from_frame;
   int matches = 0;
   int inliers = 0;
@@ -25,25 +25,27 @@ struct TrackingResult {
   [[nodiscard]] bool tracked() const { return reference.has_value(); }
 };
 
-/// Follows the camera through the map: predicts the pose by the last motion, finds in the image what the last
-/// frame showed, then what the map around it holds, and solves for the pose of the camera. Falls back to
-/// matching without prediction, then to relocalisation. A pose too far from the last one known (max_motion)
-/// is refused, whichever of them found it. It reads the map and never writes it. Deterministic.
+/// Tracks the camera in the map: predicts the pose by the last motion, searches the image for what the last
+/// frame showed, then for landmarks of the map around it, and solves for the pose. Falls back to matching
+/// without prediction, then to relocalisation. A pose too far from the last known one (max_motion) is
+/// refused, however it was found. Reads the map and never writes it. Deterministic.
 class Tracker {
  public:
   Tracker(const SlamOptions& options, const Executor& executor, const IndexedMap& indexed);
 
-  /// Tracks the next frame, which stays here as last(). Its status is keyframe if one is due.
+  /// Tracks the next frame and keeps it as last_observed(). The status is keyframe if a keyframe is due.
   TrackingResult track(ObservedFrame&& frame);
-  /// The last frame that was given to track or begin, and what is known of it; meaningful while not lost.
+  /// Returns the last frame that was given to track().
   [[nodiscard]] const ObservedFrame& last_observed() const { return observed_; }
+  /// Returns the pose and landmarks of the last frame; meaningful unless lost().
   [[nodiscard]] const FramePose& last() const { return last_; }
+  /// Returns the keyframe that the last frame's pose is relative to; meaningful unless lost().
   [[nodiscard]] KeyframeId reference() const { return reference_; }
   [[nodiscard]] bool lost() const { return lost_; }
 
-  /// The last frame has become this keyframe.
+  /// Makes `keyframe`, made of the last frame, its reference; the camera is not lost afterwards.
   void refer_to(KeyframeId keyframe);
-  /// The map's poses and landmarks have been adjusted: the last frame moves with its reference.
+  /// Moves the last frame with its reference; to be called after the map was adjusted.
   void follow_map();
 
  private:

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::int32_t kAbsent = -1;
 
-/// Builds the problem of some landmarks, with the keyframes that are let in.
+/// Builds the problem of some landmarks and the keyframes that were added.
 class WindowBuilder {
  public:
   explicit WindowBuilder(const Map& map) : map_(map), camera_of_(map.keyframes().size(), kAbsent) {
@@ -47,7 +47,7 @@ class WindowBuilder {
   Window window_;
 };
 
-/// The landmarks that no other keyframe shows move along.
+/// Moves a keyframe, and with it the landmarks that no other keyframe shows.
 void move_with_its_own(KeyframeId id, const Rigid3& world_from_camera, Map& map) {
   const Rigid3 new_from_old = world_from_camera * map[id].world_from_camera.inverse();
   map.move(id, world_from_camera);

@@ -9,22 +9,24 @@
 
 namespace cairn {
 
-/// A component of the map as a bundle adjustment, and what came of which.
+/// Holds a bundle adjustment of keyframes and landmarks of the map, with their ids.
 struct Window {
   BundleProblem problem;
-  std::vector<KeyframeId> cameras;  ///< one per camera of the problem
-  std::vector<LandmarkId> points;   ///< one per point
+  std::vector<KeyframeId> cameras;  ///< keyframe of each camera of the problem
+  std::vector<LandmarkId> points;   ///< landmark of each point of the problem
 };
 
-/// The keyframe, its window_keyframes - 1 neighbours with the most shared landmarks, and all landmarks that
-/// they show; window_fixed other keyframes that show these hold them in place. The oldest keyframe is held
-/// where no other is.
+/// Builds the adjustment of a keyframe, of its window_keyframes - 1 neighbours with the most shared
+/// landmarks, and of the landmarks that these show. The window_fixed other keyframes that show most of the
+/// landmarks are held fixed; without any, the oldest keyframe is.
 [[nodiscard]] Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options);
 
-/// All keyframes of a component, the first one held, and all their landmarks seen at least twice.
+/// Builds the adjustment of all keyframes of a component, the first one held fixed, and of all their
+/// landmarks that are seen at least twice.
 [[nodiscard]] Window whole_component(const Map& map, std::int32_t component);
 
-/// Takes the adjusted places over and ends the observations that do not agree with them.
+/// Moves keyframes and landmarks to their adjusted poses and points, and removes the observations that do not
+/// agree with them.
 void apply_adjustment(const Window& window, const BundleReport& report, Map& map);
 
 }  // namespace cairn

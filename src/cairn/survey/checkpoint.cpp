@@ -15,7 +15,7 @@ constexpr BinaryKind kKind{"CAIRNSVY", 2};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
-// Each put has its get below, in the same order.
+// Each put has a get with the same order of values.
 
 void put(const ObservationRef& observation, ByteWriter& writer) {
   writer.put(observation.keyframe.value);
@@ -143,7 +143,7 @@ void get(BinaryReader& reader, SurveyLandmark& landmark) {
   get(reader, landmark.indicators);
 }
 
-/// The numbers of SurveyCounts, in its order.
+/// Returns the integers of SurveyCounts, in the order in which they are stored.
 std::vector<std::int64_t*> fields_of(SurveyCounts& counts) {
   std::vector<std::int64_t*> fields{&counts.frames,
                                     &counts.without_pose,
@@ -179,7 +179,7 @@ VarianceModel::Sums get_sums(BinaryReader& reader) {
   return sums;
 }
 
-/// Without what is found again in its images, or given again.
+/// Stores a frame without its features and its given pose, which a run that resumes has again.
 void put(const SurveyFrame& frame, ByteWriter& writer) {
   writer.put(frame.id.value);
   writer.put(frame.observed.frame.value);

@@ -10,23 +10,23 @@
 
 namespace cairn {
 
-/// What a run needs to go on after it was stopped or killed.
+/// Holds what a run needs to resume after it was stopped or killed.
 struct Checkpoint {
   SurveyState state;
   MapWriterState writer;
 };
 
-/// Gives frames, whose place in the sequence is observed.frame, again what was observed in them (those
-/// features that they kept) and their given poses.
+/// Fills frames, whose position in the sequence is observed.frame, with what was observed in them (the
+/// features that they kept) and with their given poses.
 using ObserveAgain = std::function<void(std::vector<SurveyFrame>& frames)>;
 
-/// Writes the checkpoint beside the pieces of the map that it belongs to, in place of the one before.
-/// `identity` stands for input and options. Features are not stored: whoever goes on finds them again.
+/// Writes the checkpoint into the folder of the map's pieces, in place of the last one. `identity` stands for
+/// input and options (identity_of). Features are not stored: a run that resumes finds them again.
 void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identity, const SurveyState& state,
                       const MapWriterState& writer);
 
-/// The checkpoint in the folder; nothing where there is none, or one of another input, other options or
-/// another version, or it is damaged: then the work begins anew.
+/// Reads the checkpoint in the folder. Returns nullopt if there is none, if it is of another input, other
+/// options or another version, or if it is damaged; the work then starts anew.
 [[nodiscard]] std::optional<Checkpoint> read_checkpoint(const std::filesystem::path& folder,
                                                         std::uint32_t identity, const ObserveAgain& observe);
 

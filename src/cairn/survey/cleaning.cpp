@@ -22,7 +22,7 @@ std::string_view to_string(CleaningRule rule) {
 
 std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
                                         const Eigen::Matrix3d& covariance, const CleaningOptions& options) {
-  // A comparison with NaN is false, so that each asks for what is good.
+  // A comparison with NaN is false, so each test asks for the good case.
   if (!(indicators.frames >= options.min_frames)) return CleaningRule::frames;
   if (!(largest_std(covariance) <= options.max_std_m)) return CleaningRule::position_std;
   if (!(indicators.rms_px <= options.max_rms_px)) return CleaningRule::rms;

@@ -23,7 +23,8 @@ std::int64_t sum_of(const CleaningCounts& cleaned) {
   return std::accumulate(cleaned.begin(), cleaned.end(), std::int64_t{0});
 }
 
-/// The parameter of the rule, with its value if it is one number, and what a landmark that falls to it lacks.
+/// Returns the parameter of the rule, with its value if it is one number, and what a landmark that fails it
+/// lacks.
 std::string describe_rule(CleaningRule rule, const CleaningOptions& options) {
   switch (rule) {
     case CleaningRule::frames:
@@ -70,7 +71,7 @@ std::string likely_cause(const SurveyResult& result, const SurveyOptions& option
     return fmt::format(
         "None of {} features has a depth: look at the baseline, or at the depth's scale, in the calibration.",
         counts.features);
-  // Of a good drive, too, most tracks are short: they say something only if hardly one became a landmark.
+  // Even in a good drive most tracks are short: this says something only if hardly any became a landmark.
   constexpr std::int64_t kHardlyOne = 10;
   const std::int64_t made = sum_of(counts.cleaned);
   const auto worst = std::max_element(counts.cleaned.begin(), counts.cleaned.end());

@@ -15,14 +15,14 @@
 namespace cairn {
 namespace {
 
-/// Points by cells, to find those near a place.
+/// Indexes points by cells, to find those near a position.
 class CellIndex {
  public:
   void add(const Eigen::Vector3d& point, std::size_t number) { cells_[cell_of(point)].push_back(number); }
   void remove(const Eigen::Vector3d& point, std::size_t number) {
     std::erase(cells_[cell_of(point)], number);
   }
-  /// Those in the cells that the ball touches, by cell.
+  /// Returns the points in the cells that the ball touches, by cell.
   [[nodiscard]] std::vector<std::size_t> near(const Eigen::Vector3d& point, double radius) const {
     const auto [x0, y0, z0] = cell_of(point - Eigen::Vector3d::Constant(radius));
     const auto [x1, y1, z1] = cell_of(point + Eigen::Vector3d::Constant(radius));
@@ -60,7 +60,7 @@ bool is_same_place(const SurveyLandmark& a, const SurveyLandmark& b, double sigm
   return difference.dot(covariance.inverse() * difference) <= sigmas * sigmas;
 }
 
-/// The observations of the two that are nearest in time.
+/// Returns the observations, one of each landmark, that are nearest in time.
 std::pair<ObservationRef, ObservationRef> nearest_observations(const SurveyLandmark& a,
                                                                const SurveyLandmark& b) {
   std::pair<ObservationRef, ObservationRef> best{a.observations.front(), b.observations.front()};
@@ -86,7 +86,7 @@ bool looks_the_same(const FrameBuffer& frames, const SurveyLandmark& a, const Su
   return !match_descriptors(first, descriptor_of(frames, y), {descriptor_limit(first), 0, false}).empty();
 }
 
-/// Of both, by frame; of two in one frame that of `a`.
+/// Returns the observations of both landmarks by frame; if both have one in a frame, that of `a`.
 std::vector<ObservationRef> joined_observations(const SurveyLandmark& a, const SurveyLandmark& b) {
   const auto is_before = [](const ObservationRef& x, const ObservationRef& y) {
     return x.keyframe < y.keyframe;
@@ -97,8 +97,8 @@ std::vector<ObservationRef> joined_observations(const SurveyLandmark& a, const S
   return joined;
 }
 
-/// Returns one landmark made of two, or nothing if not nearly all observations agree or the one breaks a
-/// limit of cleaning that both may well hold.
+/// Returns one landmark made of two, or nullopt if not nearly all observations agree or the landmark fails a
+/// rule of cleaning, which the two may pass each.
 std::optional<SurveyLandmark> joined(const MergeInput& input, const SurveyLandmark& a,
                                      const SurveyLandmark& b) {
   const auto& [rig, frames, prior, options] = input;

@@ -13,33 +13,33 @@
 
 namespace cairn {
 
-/// How the camera moved since the frame before, as the images show it.
+/// Holds the motion of the camera since the frame before, as measured in the images.
 struct VisualMotion {
   Rigid3 previous_from_this;
   double rotation_variance = 0;     ///< per axis, radians squared
   double translation_variance = 0;  ///< per axis, square metres
 };
 
-/// A frame with its pose, as long as tracks need it.
+/// Holds a frame with its pose, for as long as tracks need it.
 struct SurveyFrame {
   KeyframeId id;
-  ObservedFrame observed;           ///< the features that are of use
-  std::vector<std::uint32_t> kept;  ///< which of all features of the image they are
+  ObservedFrame observed;           ///< useful features only, see drop_unused_features
+  std::vector<std::uint32_t> kept;  ///< positions of these features among all of the image
   GivenPose given;
-  WorldFromCamera world_from_camera;  ///< the given one, or what smoothed_pose made of it
-  CameraFromWorld camera_from_world;  ///< its inverse
-  /// In the world of the tracks: as the motion leads on from the frame before, or else the given poses. It
-  /// drifts, but within a window it fits the images better than given poses do.
+  WorldFromCamera world_from_camera;  ///< the given pose, or the smoothed one (smoothed_pose)
+  CameraFromWorld camera_from_world;  ///< inverse of world_from_camera
+  /// world_from_camera in the world of the tracks: the motion from the frame before, if measured, else that
+  /// of the given poses. It drifts, but within a window it fits the images better than the given poses do.
   WorldFromCamera odometry;
-  std::optional<VisualMotion> motion;  ///< nothing for the first frame, and where the images do not show it
-  std::vector<LandmarkId>
-      landmarks;  ///< one per feature; not valid where it shows none, or none is known yet
+  std::optional<VisualMotion> motion;  ///< nullopt for the first frame, and if the images do not show it
+  /// One per feature; not valid if it shows no landmark, or none is known yet.
+  std::vector<LandmarkId> landmarks;
 };
 
-/// The last frames, by their numbers.
+/// Holds the last frames, which have successive numbers.
 class FrameBuffer {
  public:
-  /// Its number follows the last one's.
+  /// Appends a frame. Throws PreconditionError unless its number follows that of the last one.
   void push_back(SurveyFrame&& frame);
   void pop_front() { frames_.pop_front(); }
 
@@ -48,27 +48,32 @@ class FrameBuffer {
   [[nodiscard]] std::size_t size() const { return frames_.size(); }
   [[nodiscard]] const SurveyFrame& front() const { return frames_.front(); }
   [[nodiscard]] const SurveyFrame& back() const { return frames_.back(); }
-  /// The frame is in the buffer.
+  /// Returns the frame with number `id`. Throws PreconditionError if it is not in the buffer.
   [[nodiscard]] const SurveyFrame& operator[](KeyframeId id) const { return frames_[position(id)]; }
   [[nodiscard]] SurveyFrame& operator[](KeyframeId id) { return frames_[position(id)]; }
-  /// Of a frame in camera_poses().
+  /// Returns the position of a frame in all() and camera_poses(). Throws PreconditionError if it is not in
+  /// the buffer.
   [[nodiscard]] std::size_t position(KeyframeId id) const;
+  /// Returns camera_from_world of each frame, in order.
   [[nodiscard]] std::vector<CameraFromWorld> camera_poses() const;
 
  private:
   std::deque<SurveyFrame> frames_;
 };
 
-/// Of a frame in the buffer.
+/// Returns the observation that `observation` refers to, of a frame in the buffer.
 [[nodiscard]] const Observation& observation_of(const FrameBuffer& frames, const ObservationRef& observation);
 
+/// Returns the keypoint that `observation` refers to, of a frame in the buffer.
 [[nodiscard]] const Keypoint& keypoint_of(const FrameBuffer& frames, const ObservationRef& observation);
+/// Returns the appearance of the feature that `observation` refers to, seen from the frame's odometry pose.
+/// It refers to descriptors in the buffer.
 [[nodiscard]] Appearance appearance_of(const FrameBuffer& frames, const ObservationRef& observation);
 
-/// The frame with these of its features, in this order.
+/// Returns the frame with only the given features, in the given order.
 [[nodiscard]] ObservedFrame select(const ObservedFrame& observed, std::span<const std::uint32_t> features);
 
-/// Multiplies the sigmas of u and v.
+/// Multiplies the standard deviations of u and v by `factor`.
 void scale_sigmas(double factor, ObservedFrame& observed);
 
 }  // namespace cairn

@@ -28,7 +28,7 @@ void append_pose(const GivenPose& pose, std::string& text) {
   append_numbers(pose.uncertainty->position_rotation, text);
 }
 
-/// Name, size and time of modification. A file that cannot be looked at is left to whoever reads it.
+/// Appends name, size and time of modification. A file without them is left to whoever reads it.
 void append_file(const fs::path& path, std::string& text) {
   if (path.empty()) return;
   std::error_code no_size, no_time;

@@ -37,7 +37,7 @@ SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
   return landmark;
 }
 
-/// Tracks that have their cameras in common.
+/// Holds the tracks that have their camera poses in common.
 struct TrackGroup {
   KeyframeId middle;
   std::vector<std::size_t> tracks;
@@ -67,7 +67,7 @@ void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track>
   }
 }
 
-/// The covariance of c + w x lever, with the errors (c, w) of a pose.
+/// Computes the covariance of c + w x lever, with the errors (c, w) of a pose.
 Eigen::Matrix3d covariance_at(const PoseUncertainty& pose, const Eigen::Vector3d& lever) {
   const Eigen::Matrix3d by_rotation = skew(-lever);
   const Eigen::Matrix3d both = pose.position_rotation * by_rotation.transpose();

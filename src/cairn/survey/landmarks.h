@@ -11,56 +11,62 @@
 
 namespace cairn {
 
-/// A landmark that was adjusted.
+/// Holds an adjusted landmark.
 struct SurveyLandmark {
-  std::vector<ObservationRef> observations;  ///< those that agree with the point, by frame
+  std::vector<ObservationRef> observations;  ///< observations that agree with the point, by frame
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
-  /// Of the point, square metres, for observations as noisy as their sigmas say and exact poses.
+  /// Covariance of the point, square metres, if the observations are as noisy as their standard deviations
+  /// say and the poses exact.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
-  double squared_error_sum = 0;  ///< of the observations, in units of their standard deviations
-  int redundancy = 0;            ///< numbers measured, without the three of the point
+  double squared_error_sum = 0;  ///< over the observations, in units of their standard deviations
+  int redundancy = 0;            ///< number of measured values minus the three of the point
   double variance_factor = 1;    ///< a posteriori, see VarianceModel
-  Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();  ///< what the poses' errors add, square metres
+  /// What the errors of the given poses add, square metres.
+  Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
   LandmarkIndicators indicators;
 
-  /// What the images leave open. It tells landmarks apart: the errors of poses move neighbours alike.
+  /// Returns the covariance from the images alone, square metres. It tells landmarks apart, because the
+  /// errors of poses move neighbouring landmarks alike.
   [[nodiscard]] Eigen::Matrix3d own_covariance() const { return variance_factor * cofactor; }
-  /// Of the point in the world.
+  /// Returns the covariance of the point in the world, square metres.
   [[nodiscard]] Eigen::Matrix3d covariance() const { return own_covariance() + pose_covariance; }
 };
 
-/// What became of tracks.
+/// Holds the landmarks made of tracks, and counts the tracks of which none was made.
 struct AdjustedTracks {
-  std::vector<SurveyLandmark> landmarks;  ///< in the tracks' order
+  std::vector<SurveyLandmark> landmarks;  ///< in the order of the tracks
   std::int64_t too_short = 0;             ///< tracks of fewer frames than a landmark needs
-  std::int64_t inconsistent = 0;          ///< too few observations agree with one point
-  std::int64_t dropped_observations = 0;  ///< of landmarks: those that disagree
+  std::int64_t inconsistent = 0;          ///< tracks with too few observations that agree with one point
+  std::int64_t dropped_observations = 0;  ///< observations of landmarks that do not agree with their points
 };
 
-/// The frame in whose surroundings a landmark's cameras are taken, see cameras_around.
+/// Returns the frame around which the camera poses of a landmark are taken, see cameras_around: the middle
+/// one of the observations.
 [[nodiscard]] KeyframeId middle_of(std::span<const ObservationRef> observations);
 
-/// Fits a point to what the observations show, whose frames are in the buffer, see LandmarkSolver; nothing
-/// where too few agree.
+/// Fits a point to the observations, whose frames are in the buffer, see LandmarkSolver. Returns nullopt if
+/// too few agree.
 [[nodiscard]] std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,
                                                              std::span<const ObservationRef> observations,
                                                              const SurveyOptions& options);
 
-/// The same for each of the tracks. The same bits at any number of threads.
+/// Fits a point to each of the tracks, whose frames are in the buffer. The same bits at any number of
+/// threads.
 [[nodiscard]] AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames,
                                            std::span<const Track> tracks, const SurveyOptions& options,
                                            const Executor& executor);
 
-/// The observations with their cameras.
+/// Returns the observations, as stored in a map, with the poses of their cameras. `cameras` are of the frames
+/// in the buffer, in order.
 [[nodiscard]] std::vector<PosedObservation> views_of(const FrameBuffer& frames,
                                                      std::span<const CameraFromWorld> cameras,
                                                      std::span<const ObservationRef> observations);
 
-/// Sets what its covariance is made of beside the cofactor. What the errors of the given poses add is zero
-/// where none are given. GNSS/INS errors change slowly, so that the poses of one landmark err alike: the mean
-/// of what each pose alone would add, dX = c + w x (X - p) with PoseUncertainty's (c, w), does not shrink
-/// with the number of frames. What changes from frame to frame is in the residuals, and so in the variance
-/// factor.
+/// Sets the variance factor and, if `pose_errors` is true, what the errors of the given poses add to the
+/// covariance, zero if they state none. GNSS/INS errors change slowly, so that the poses of one landmark err
+/// alike: the mean of what each pose alone would add, dX = c + w x (X - p) with PoseUncertainty's (c, w),
+/// does not shrink with the number of frames. What changes from frame to frame is in the residuals, and so in
+/// the variance factor.
 void complete_covariance(const FrameBuffer& frames, const VariancePrior& prior, bool pose_errors,
                          SurveyLandmark& landmark);
 

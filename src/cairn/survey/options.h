@@ -9,67 +9,76 @@
 
 namespace cairn {
 
-/// How features become tracks.
+/// Holds the options of tracking features.
 struct TrackOptions {
-  /// Frames: a landmark that was not seen for so many is finished. It bounds the memory; few come back after
-  /// more, and these become two landmarks, which are merged.
+  /// Number of frames without a measured disparity after which a track is finished. It bounds the memory; few
+  /// features come back later, and become two landmarks, which are merged.
   int window = 20;
-  /// Frames on either side, whose poses and motions smooth a pose, see smoothed_pose; 0: poses stay as given.
-  /// Less than the window, so that a track's poses are smooth before it is adjusted.
+  /// Number of frames on either side whose poses and motions smooth a pose, see smoothed_pose; 0: poses stay
+  /// as given. Less than the window, so that a track's poses are smooth before it is adjusted.
   int smooth_frames = 10;
-  /// Frames: a track spans fewer, and then begins anew. More would hardly make it surer, and hold the memory.
+  /// Maximum length of a track, frames; at this length it is closed and a new one begins. Longer tracks add
+  /// little accuracy, but keep frames in memory.
   int max_frames = 50;
-  double epipolar_px = 2;  ///< largest distance from the epipolar line, times the larger keypoint's scale
-  double search_px = 4;  ///< around the predicted place, plus what the depth leaves open, at the lowest level
-  double max_ratio = 0.9;  ///< nearest to second nearest descriptor within the window (Lowe 2004, sec. 7.1)
-  /// Radians, plus the way over the median depth: a frame that changes the view by less since the last one
-  /// shows nothing new. A car that waits makes no landmarks of fifty frames from one place.
+  /// Largest distance from the epipolar line, pixels, times the larger scale of the two keypoints.
+  double epipolar_px = 2;
+  /// Search radius around the predicted pixel, at the finest scale, plus what the depth leaves open.
+  double search_px = 4;
+  /// Largest ratio of the distances to the nearest and the second nearest descriptor within the search radius
+  /// (Lowe 2004, sec. 7.1).
+  double max_ratio = 0.9;
+  /// Smallest change of the view, rotation in radians plus translation over the median depth; a frame that
+  /// changes it by less since the last one used is left out. A car that waits makes no landmarks of fifty
+  /// frames from one position.
   double min_view_change = 0.004;
 };
 
-/// How sure a landmark is.
+/// Holds the options of the landmarks' covariances.
 struct CovarianceOptions {
-  /// Pixels, of u and v of a feature of the lowest level; times the level's scale for the others. Where the
-  /// images say otherwise, the variance factor corrects it.
+  /// Standard deviation of u and v of a feature of the finest scale, pixels; times the scale for other
+  /// features. The variance factor corrects it if the images disagree.
   double sigma_px = 0.5;
-  bool pose_errors = true;  ///< the given poses' own standard deviations enter, where there are any
+  bool pose_errors = true;  ///< add what the stated deviations of the given poses, if any, make of a landmark
 };
 
-/// Bounds for the four figures that the observations of a landmark have of one thing; unset: none.
+/// Holds the limits on one quantity over the observations of a landmark; unset: no limit.
 struct ValueLimits {
-  std::optional<double> min;       ///< no observation below
-  std::optional<double> max;       ///< none above
-  std::optional<double> max_mean;  ///< of the mean
-  std::optional<double> max_std;   ///< of the standard deviation
+  std::optional<double> min;       ///< smallest value of each observation
+  std::optional<double> max;       ///< largest value of each observation
+  std::optional<double> max_mean;  ///< largest mean
+  std::optional<double> max_std;   ///< largest standard deviation
 };
 
-/// Which landmarks are worth keeping.
+/// Holds the options of cleaning: which landmarks are kept, and when two are merged.
 struct CleaningOptions {
-  int min_frames = 3;  ///< two agree by chance along the line; a third confirms or refutes
-  /// Metres, along the worst direction, by the landmark's own covariance, that is, without what the given
-  /// poses' deviations add: a camera that is resected by less certain ones gains nothing, whereas the errors
-  /// of poses move neighbouring landmarks alike.
+  int min_frames = 3;  ///< fewest frames: two agree by chance along the line, a third confirms or refutes
+  /// Largest standard deviation along the worst direction, metres, by the landmark's own covariance, that is,
+  /// without what the given poses' deviations add: a camera that is resected from less certain landmarks
+  /// gains nothing, whereas the errors of poses move neighbouring landmarks alike.
   double max_std_m = 0.5;
-  double max_rms_px = 1.5;  ///< three times what good features have: something moved, or two things were one
-  double min_ray_angle_deg =
-      0.2;  ///< largest angle between two rays: below, the depth rests on the disparity alone
-  ValueLimits depth{.min = 0.3, .max = 100, .max_mean = {}, .max_std = {}};    ///< metres
-  ValueLimits distance{.min = {}, .max = 120, .max_mean = {}, .max_std = {}};  ///< metres
-  ValueLimits lateral{
-      .min = {}, .max = 60, .max_mean = {}, .max_std = {}};  ///< metres, from the optical axis
-  ValueLimits angle_deg{.min = {},
-                        .max = 60,
-                        .max_mean = {},
-                        .max_std = {}};  ///< between ray and optical axis: beyond, lenses are badly known
-  /// Two landmarks are one where their difference is at most so many standard deviations (chi-square with 3
-  /// degrees of freedom, 95 %), they look the same, and one point fits all observations.
+  /// Largest RMS residual of (u, v), three times that of good features: something moved, or two things were
+  /// taken as one.
+  double max_rms_px = 1.5;
+  /// Smallest value of the largest angle between two rays, degrees; below, the depth rests on the disparity
+  /// alone.
+  double min_ray_angle_deg = 0.2;
+  /// Depth along the optical axis, metres.
+  ValueLimits depth{.min = 0.3, .max = 100, .max_mean = {}, .max_std = {}};
+  /// Distance from the camera, metres.
+  ValueLimits distance{.min = {}, .max = 120, .max_mean = {}, .max_std = {}};
+  /// Distance from the optical axis, metres.
+  ValueLimits lateral{.min = {}, .max = 60, .max_mean = {}, .max_std = {}};
+  /// Angle between ray and optical axis, degrees; far from the axis, lenses are badly calibrated.
+  ValueLimits angle_deg{.min = {}, .max = 60, .max_mean = {}, .max_std = {}};
+  /// Largest difference of two landmarks that are merged, standard deviations (chi-square with 3 degrees of
+  /// freedom, 95 %), if they look alike and one point fits all observations.
   double duplicate_sigmas = 2.8;
 };
 
-/// Mapping with known poses.
+/// Holds the options of mapping with known poses.
 struct SurveyOptions {
-  /// Many features, dim ones too, and of each its partner, however the right image looks: a wrong one among
-  /// them contradicts the other frames.
+  /// Options of observing frames. Many features, also of low contrast, and a partner for each however the
+  /// right image looks: a wrong partner contradicts the other frames.
   ObserverOptions observer{
       .features = {.detector = "SIFT", .descriptor = "SIFT", .count = 4000, .contrast = 0.01},
       .depth_noise = {},

@@ -26,7 +26,7 @@ constexpr int kFewestPairs = 3;
 constexpr double kFewestPx = 3;   // of motion in the image: less does not tell readings apart
 constexpr double kEnoughPx = 10;  // else a frame further on is taken
 
-/// Two frames, and the motion between them as their images show it.
+/// Holds two frames and the motion between them as measured in their images.
 struct SeenMotion {
   std::size_t first = 0, second = 0;  // in the sequence
   Rigid3 second_from_first;
@@ -35,7 +35,8 @@ struct SeenMotion {
   double flow_px = 0;
 };
 
-/// How far the points lie in the second image from where a motion puts them; infinite behind the camera.
+/// Computes the median distance of the points in the second image from where a motion puts them, pixels;
+/// infinite behind the camera.
 double error_of(const Rig& rig, const SeenMotion& motion, const Rigid3& second_from_first) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < motion.points_in_first.size(); ++i) {
@@ -72,7 +73,7 @@ std::optional<SeenMotion> motion_between(const Rig& rig, const ObservedFrame& fi
   return motion;
 }
 
-/// Measures motions from some frames on.
+/// Measures motions that begin at some frames of the sequence.
 class MotionProbe {
  public:
   MotionProbe(const Sequence& sequence, const GivenPoses& poses, const ObserverOptions& options)
@@ -81,7 +82,8 @@ class MotionProbe {
       if (poses.frames[i]) posed_.push_back(i);
   }
 
-  /// Nothing where the images show no motion that is of use.
+  /// Measures the motion from the frame at `position` of those with a pose. Returns nullopt if the images
+  /// show no useful motion.
   [[nodiscard]] std::optional<SeenMotion> from(std::size_t position) const {
     const LoadedFrame first = observer_.load(posed_[position]);
     if (first.failure) return std::nullopt;
@@ -118,7 +120,7 @@ class MotionProbe {
   std::vector<std::size_t> posed_;
 };
 
-/// Medians over the motions.
+/// Holds how far poses and images differ, as medians over the motions.
 struct Disagreement {
   double error_px = 0;
   double share = 0;  // of the motion in the image
@@ -154,7 +156,8 @@ void fill_figures(const std::vector<SeenMotion>& motions, const CameraPoses& pos
   check.pose_motion_m = median(std::move(pose_ways));
 }
 
-/// The best of those that agree with the images; of two misreadings at once only where one is not enough.
+/// Looks for the best reading that agrees with the images; two misreadings at once are tried only if no
+/// single one does.
 void look_for_reading(const Rig& rig, const std::vector<SeenMotion>& motions, double given_share,
                       const std::vector<PoseReading>& readings, PoseCheck& check) {
   constexpr double kAgrees = 0.25, kBetter = 4;

@@ -11,19 +11,19 @@
 namespace cairn {
 namespace {
 
-/// What else a stated pose may mean; of the body, or of the camera if there is none.
+/// Describes what else a stated pose may mean; it is of the body, or of the camera if there is no body.
 struct Change {
   std::string name, remedy;
   std::function<Rigid3(const Rigid3&)> apply;
 };
 
-/// Where else the camera may sit on what the poses are of.
+/// Describes where else the camera may sit on the body, or the frame, that the poses are of.
 struct Mount {
   std::string name, remedy;
   Rigid3 subject_from_camera;
 };
 
-/// A table may have angles or quaternions.
+/// Returns whether the poses may be stated by angles; a table has angles or quaternions.
 bool have_angles(const GivenPoses& given) {
   return given.format == "table" || given.format == "OXTS";
 }
@@ -41,7 +41,7 @@ Change identity() {
   return {"", "", [](const Rigid3& pose) { return pose; }};
 }
 
-/// The four numbers of the file were taken in another order than they stand in.
+/// Returns readings of the four numbers in another order than the one stated.
 std::vector<Change> quaternion_orders() {
   const auto reordered = [](const Rigid3& pose, bool w_is_first) {
     const Eigen::Quaterniond& q = pose.rotation;
@@ -55,8 +55,9 @@ std::vector<Change> quaternion_orders() {
            [=](const Rigid3& pose) { return reordered(pose, false); }}};
 }
 
-/// A file in the TUM format states qw last, one in EuRoC's first: only the other order can be meant. The
-/// names of a table's columns may be wrong either way.
+/// Returns the orders of quaternions that may be meant. A file in the TUM format states qw last, one in
+/// EuRoC's first, so only the other order is possible; the names of a table's columns may be wrong either
+/// way.
 std::vector<Change> other_quaternion_orders(const Sequence& sequence, const GivenPoses& given) {
   if (!have_quaternions(sequence, given)) return {};
   std::vector<Change> orders = quaternion_orders();
@@ -99,7 +100,8 @@ Change by_angles(const std::string& name, const std::string& remedy, const Eigen
           }};
 }
 
-/// A table states roll, pitch and heading against north, east, down; OXTS packets against east, north, up.
+/// Returns the readings of angles that may be meant. A table states roll, pitch and heading against north,
+/// east, down; OXTS packets against east, north, up.
 std::vector<Change> other_angles(const GivenPoses& given) {
   constexpr double kRight = std::numbers::pi / 2, kRadian = std::numbers::pi / 180;
   const bool is_table = given.format == "table";
@@ -145,7 +147,7 @@ std::vector<Change> changes_of(const Sequence& sequence, const GivenPoses& given
   return changes;
 }
 
-/// The first is the stated one.
+/// Returns the mounts of the camera that may be meant, first the stated one.
 std::vector<Mount> mounts_of(const GivenPoses& given) {
   const Rigid3& stated = given.subject_from_camera;
   struct Axes {
@@ -196,7 +198,8 @@ PoseReading reading_of(const CameraPoses& poses, const Rigid3& stated_camera_fro
   return reading;
 }
 
-/// Frame i with the pose of frame i + `by`; `offset_s` was added to the stamps already.
+/// Returns the reading in which frame i has the pose of frame i + `by`; `offset_s` was added to the stamps
+/// already.
 PoseReading shifted(const Sequence& sequence, const CameraPoses& poses, double offset_s, int by) {
   PoseReading reading;
   const auto count = static_cast<std::int64_t>(poses.size());

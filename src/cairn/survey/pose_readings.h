@@ -13,12 +13,12 @@ namespace cairn {
 
 using CameraPoses = std::vector<std::optional<WorldFromCamera>>;
 
-/// Another way to read the given poses.
+/// Describes another way to read the given poses.
 struct PoseReading {
   std::string name;          ///< "quaternions as qw qx qy qz"
   std::string remedy;        ///< what the user has to change if it is the right one
-  bool is_combined = false;  ///< two misreadings at once
-  CameraPoses poses;         ///< of each frame, as this reading has them
+  bool is_combined = false;  ///< whether it takes two misreadings at once
+  CameraPoses poses;         ///< of each frame, by this reading
 };
 
 /// Returns the readings that are known to be mistaken for the given one, by the format of the poses: orders

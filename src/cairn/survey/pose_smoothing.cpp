@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kTiny = 1e-18;  // radians, metres, squared: exact poses get all the weight
 
-/// Where motions lead from a frame in the middle.
+/// Says where motions lead from a frame in the middle.
 struct Neighbour {
   KeyframeId id;
   Rigid3 neighbour_from_middle;
-  double rotation_variance = 0, translation_variance = 0;  // of the way, per axis
+  double rotation_variance = 0, translation_variance = 0;  // of the motions up to there, per axis
 };
 
 KeyframeId shifted(KeyframeId id, int by) {
@@ -25,7 +25,7 @@ bool is_in(const FrameBuffer& frames, KeyframeId id) {
   return id >= frames.front().id && id <= frames.back().id;
 }
 
-/// The frames after (direction 1) or before (-1) `middle`, the nearest first, as far as motions were
+/// Returns the frames after (direction 1) or before (-1) `middle`, the nearest first, as far as motions were
 /// measured.
 std::vector<Neighbour> follow_motions(const FrameBuffer& frames, KeyframeId middle, int direction,
                                       int reach) {
@@ -45,9 +45,10 @@ std::vector<Neighbour> follow_motions(const FrameBuffer& frames, KeyframeId midd
   return neighbours;
 }
 
-/// What the given poses of one side's neighbours, of the variance `jitter` each, weigh where the motions have
-/// carried them. Those further away share the steps of the nearer: from the farthest inwards, information J
-/// passes a step of variance v as J / (1 + J v), as in the filter of a random walk (Kalman 1960).
+/// Computes the weights of the given poses of one side's neighbours, of variance `jitter` each, after motions
+/// have carried them to the middle. Neighbours further away share the steps of the nearer: from the farthest
+/// inwards, information J passes a step of variance v as J / (1 + J v), as in the filter of a random walk
+/// (Kalman 1960).
 std::vector<double> weights_of(const std::vector<Neighbour>& side, double jitter, double Neighbour::*way) {
   std::vector<double> weights(side.size(), 1 / jitter);
   double information = 0;

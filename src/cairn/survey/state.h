@@ -10,14 +10,16 @@
 
 namespace cairn {
 
-/// All that mapping knows between two frames; the rest is on disk.
+/// Holds the state of mapping between two frames; the rest is on disk.
 struct SurveyState {
-  std::size_t next_in_sequence = 0;  ///< the first frame of the sequence that was not looked at
+  std::size_t next_in_sequence = 0;  ///< first frame of the sequence that was not processed
+  /// Number that the next frame of the map gets.
   KeyframeId next_frame{0};
+  /// Number that the next landmark written gets.
   LandmarkId next_landmark{0};
-  FrameBuffer frames;                   ///< those that tracks or landmarks below have seen, and the window
-  std::vector<Track> tracks;            ///< of the window
-  std::vector<SurveyLandmark> pending;  ///< cleaned, and still to be compared with later ones
+  FrameBuffer frames;         ///< the window, and frames that a track or a pending landmark was seen in
+  std::vector<Track> tracks;  ///< tracks of the window
+  std::vector<SurveyLandmark> pending;  ///< cleaned landmarks that later ones may be merged with
   VarianceModel variance;
   SurveyCounts counts;
 };

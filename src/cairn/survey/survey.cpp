@@ -28,7 +28,7 @@ void check(const SurveyInput& input) {
        "'right' or 'depth'."});
 }
 
-/// Norm and size of descriptors as the extractor makes them.
+/// Returns the name of the descriptors, with their norm and size as the extractor makes them.
 DescriptorKind kind_of(const FeatureOptions& options) {
   const Descriptors descriptors = make_extractor(options)->extract(GrayImage(1, 1)).descriptors;
   return {options.descriptor, descriptors.norm(), static_cast<std::uint32_t>(descriptors.bytes())};
@@ -46,7 +46,7 @@ MapHeader header_of(const SurveyInput& input, const Rig& rig, const SurveyOption
   return header;
 }
 
-/// One run: from where an earlier one came to, or the beginning.
+/// Carries out one run, from the checkpoint of an earlier one or from the beginning.
 class SurveyPipeline {
  public:
   SurveyPipeline(const SurveyInput& input, const SurveyOptions& options, const std::filesystem::path& folder,
@@ -78,7 +78,7 @@ class SurveyPipeline {
   }
 
  private:
-  /// A run that failed for a reason of its own fails again from what it kept: the next one begins anew.
+  /// Discards the checkpoint, because a run that failed for a reason of its own would fail again from there.
   void discard_kept() {
     if (!has_checkpoint(folder_)) return;
     remove_checkpoint(folder_);
@@ -108,7 +108,7 @@ class SurveyPipeline {
     surveyor_ = std::make_unique<Surveyor>(rig_, options_, std::move(state), *writer_);
   }
 
-  /// Returns nothing if a piece of the map that the checkpoint belongs to was changed or lost.
+  /// Opens the map that the checkpoint belongs to. Returns nullopt if a piece of it was changed or lost.
   std::optional<Checkpoint> open_kept(const MapHeader& header, Checkpoint&& checkpoint) {
     try {
       writer_ = std::make_unique<MapWriter>(folder_, header, checkpoint.writer);

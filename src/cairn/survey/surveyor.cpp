@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-/// With the sigmas that the options give features.
+/// Makes a frame with the given pose, and with standard deviations scaled by `sigma_px`.
 SurveyFrame make_frame(KeyframeId id, const ObservedFrame& observed, const GivenPose& given,
                        double sigma_px) {
   SurveyFrame frame;
@@ -24,7 +24,7 @@ SurveyFrame make_frame(KeyframeId id, const ObservedFrame& observed, const Given
   return frame;
 }
 
-/// What is stored of a landmark.
+/// Returns what is stored of a landmark.
 FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark) {
   FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.observations, {}, {},
                           landmark.indicators};
@@ -90,7 +90,8 @@ void Surveyor::finish(const Executor& executor) {
   write_frames(state_.next_frame);
 }
 
-/// Matches twice where the images show the motion: as the given poses have it, then as that motion has it.
+/// Matches the frame with the tracks: by the given poses, and again by the measured motion if the images show
+/// one.
 std::vector<TrackMatch> Surveyor::find_tracks(SurveyFrame& frame, const Executor& executor) const {
   const auto match = [&] {
     return match_to_tracks(rig_, state_.frames, state_.tracks, frame, options_.tracks, executor);
@@ -145,7 +146,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
   return kept;
 }
 
-/// The frame whose neighbours on both sides are there.
+/// Smooths the frame that has all its neighbours on both sides.
 void Surveyor::smooth_behind(KeyframeId newest) {
   const int reach = options_.tracks.smooth_frames;
   if (reach == 0 || newest.value < reach) return;
@@ -163,7 +164,7 @@ void Surveyor::smooth(KeyframeId id) {
   state_.counts.turned_squared_rad += angle * angle;
 }
 
-/// Those whose last observation is in a frame before.
+/// Writes the landmarks whose last observation is in a frame before `seen_before`.
 void Surveyor::write_landmarks(KeyframeId seen_before) {
   Stopwatch watch;
   std::vector<SurveyLandmark> later;
@@ -185,7 +186,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
   times_.writing += watch.lap();
 }
 
-/// Frames whose features' landmarks are all known.
+/// Writes the frames before `before`, whose landmarks must all be known.
 void Surveyor::write_frames(KeyframeId before) {
   Stopwatch watch;
   for (; !state_.frames.empty() && state_.frames.front().id < before; state_.frames.pop_front())
@@ -194,7 +195,7 @@ void Surveyor::write_frames(KeyframeId before) {
   times_.writing += watch.lap();
 }
 
-/// The first frame that a track or a landmark which was not written has seen.
+/// Returns the first frame that is seen by a track or by a landmark that was not written yet.
 KeyframeId Surveyor::first_open_frame() const {
   KeyframeId first = state_.next_frame;
   for (const Track& track : state_.tracks) first = std::min(first, track.observations.front().keyframe);

@@ -5,18 +5,20 @@
 
 namespace cairn {
 
-/// Mapping with known poses, frame by frame: the stages in their order, see run_survey.
+/// Maps with known poses, frame by frame: carries out the stages in their order, see run_survey.
 class Surveyor {
  public:
-  /// Goes on from `state`, with a writer that is as far.
+  /// Continues from `state`, with a writer that has come as far.
   Surveyor(const Rig& rig, const SurveyOptions& options, SurveyState&& state, MapWriter& writer);
 
-  /// The next frame. One that does not change the view is counted and left out.
+  /// Processes the next frame. One that does not change the view is counted and left out.
   void add(const ObservedFrame& observed, const GivenPose& given, const Executor& executor);
-  /// No frame follows: the tracks that are left become landmarks, and all is handed to the writer.
+  /// Makes landmarks of the tracks that are left, and hands all frames and landmarks to the writer. To be
+  /// called last.
   void finish(const Executor& executor);
 
   [[nodiscard]] SurveyState& state() { return state_; }
+  /// Returns the times of the stages except decoding and features.
   [[nodiscard]] const SurveyTimes& times() const { return times_; }
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDepthSigmas = 3;  // how far the predicted depth may be wrong
 
-/// How far the pixel in `frame` moves when the disparity that placed the track is kDepthSigmas wrong.
+/// Computes how far the pixel in `frame` moves if the disparity that placed the track is kDepthSigmas wrong.
 double depth_uncertainty_px(const Rig& rig, const FrameBuffer& frames, const Track& track,
                             const SurveyFrame& frame) {
   const SurveyFrame& then = frames[track.measured.keyframe];
@@ -26,12 +26,12 @@ double depth_uncertainty_px(const Rig& rig, const FrameBuffer& frames, const Tra
   return (rig.project(there) - rig.project(moved)).head<2>().norm();
 }
 
-/// Takes no observations in `frame` any more.
+/// Returns whether the track is too long to take an observation in `frame`.
 bool is_full(const Track& track, KeyframeId frame, const TrackOptions& options) {
   return frame.value - track.observations.front().keyframe.value + 1 >= options.max_frames;
 }
 
-/// Whether a feature of the frame can show what the track showed last, as the two poses have it.
+/// Returns whether a feature of the frame can show what the track showed last, by the two poses.
 bool agrees(const Rig& rig, const FrameBuffer& frames, const Track& track, const SurveyFrame& frame,
             std::size_t feature, double epipolar_px) {
   const Observation& then = observation_of(frames, track.observations.back());

@@ -22,7 +22,8 @@ double shifted_log(double squared_error_sum, int redundancy) {
 
 }  // namespace
 
-// Both: the recurrence up to x >= 6, then the asymptotic series (Abramowitz and Stegun 6.3.18, 6.4.12).
+// digamma and trigamma: the recurrence up to x >= 6, then the asymptotic series (Abramowitz and Stegun
+// 6.3.18, 6.4.12).
 double digamma(double x) {
   double sum = 0;
   for (; x < 6; ++x) sum -= 1 / x;

@@ -5,32 +5,35 @@
 
 namespace cairn {
 
-/// The a-posteriori variance factor of landmarks: how much noisier their observations are than their sigmas
-/// say. A landmark's own, s^2 = squared_error_sum / redundancy, is a poor estimate from three or four frames,
-/// and would make most landmarks look surer than they are; that of all together ignores that some are
-/// blurred. In between: the factors of the landmarks seen so far have a scaled inverse chi-square
-/// distribution with d0 degrees of freedom and scale s0^2, estimated from the mean and variance of log s^2
-/// (Smyth 2004, Linear models and empirical Bayes methods, sec. 6.2); given that, the point's errors have a t
-/// distribution with d0 + r degrees of freedom, whose covariance is the cofactor times
+/// Holds the prior of the landmarks' a-posteriori variance factor: how much noisier their observations are
+/// than their standard deviations say. A landmark's own factor, s^2 = squared_error_sum / redundancy, is a
+/// poor estimate from three or four frames, and would make most landmarks look too certain; the factor of all
+/// together ignores that some are blurred. In between: the factors of the landmarks seen so far have a scaled
+/// inverse chi-square distribution with d0 degrees of freedom and scale s0^2, estimated from the mean and
+/// variance of log s^2 (Smyth 2004, Linear models and empirical Bayes methods, sec. 6.2); given that, the
+/// point's errors have a t distribution with d0 + r degrees of freedom, whose covariance is the cofactor
+/// times
 ///
 ///     (d0 s0^2 + r s^2) / (d0 + r - 2).
 struct VariancePrior {
   double freedom = 4;  ///< d0
   double scale = 1;    ///< s0^2
 
+  /// Computes the a-posteriori variance factor of a landmark.
   [[nodiscard]] double factor(double squared_error_sum, int redundancy) const {
     return (freedom * scale + squared_error_sum) / (freedom + redundancy - 2);
   }
 };
 
-/// Learns the prior from landmarks.
+/// Estimates the prior from the landmarks seen so far.
 class VarianceModel {
  public:
-  /// One more landmark. `redundancy` at least 1.
+  /// Adds a landmark. Throws PreconditionError if `redundancy` is below 1.
   void add(double squared_error_sum, int redundancy);
+  /// Returns the prior of the landmarks added; the default prior until there are 100.
   [[nodiscard]] VariancePrior prior() const;
 
-  /// All that it remembers, for storing it.
+  /// Holds the state of the model, to be stored.
   struct Sums {
     std::int64_t count = 0;
     double log = 0, log_squared = 0;  ///< of e = log s^2 - digamma(r/2) + log(r/2)
@@ -44,10 +47,11 @@ class VarianceModel {
   Sums sums_;
 };
 
-/// Derivatives of log Gamma at x above 0.
+/// Computes the derivative of log Gamma at x, which is above 0.
 [[nodiscard]] double digamma(double x);
+/// Computes the second derivative of log Gamma at x, which is above 0.
 [[nodiscard]] double trigamma(double x);
-/// The x where trigamma(x) = `value`, above 0.
+/// Computes the x with trigamma(x) = `value`, which is above 0.
 [[nodiscard]] double inverse_trigamma(double value);
 
 }  // namespace cairn
