@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that each source includes what it uses of the headers that are precompiled for all (cmake/precompiled.cmake).
+"""Checks that each source includes what it uses of the headers that are precompiled for all (cmake/precompiled.cmake),
+and its own header before all others.
 
 With a precompiled header a missing #include goes unnoticed; without one (another generator, a user of one of our
 headers) the source would not compile. What counts is what a file includes itself or through our own headers, not what
 happens to come with a header of a library.
+
+A source that begins with its own header shows that this header compiles alone; those without a source are compiled by
+the target cairn_headers (cmake/rooms.cmake).
 """
 
 import argparse
@@ -97,6 +101,20 @@ def complaints(path, includes, wanted):
             yield f"{path.relative_to(includes.root)}:{line}: uses {use.group()} and does not include <{header}>"
 
 
+FIRST_INCLUDE = re.compile(r'^\s*#\s*include\s*(\S+)', re.MULTILINE)
+
+
+def complaints_about_first(path, includes):
+    """A source whose header lies beside it and is not its first include."""
+    header = path.with_suffix(".h")
+    if path.suffix != ".cpp" or not header.exists() or not header.is_relative_to(includes.root / "src"):
+        return
+    own = f'"{header.relative_to(includes.root / "src").as_posix()}"'
+    first = FIRST_INCLUDE.search(path.read_text())
+    if not first or first.group(1) != own:
+        yield f"{path.relative_to(includes.root)}: does not include {own} before all others"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=Path, default=ROOT)
@@ -108,6 +126,7 @@ def main():
     includes, wanted = Includes(root), patterns()
     for path in cpp_files(root, folders=("src", "apps", "examples", "benchmarks")):
         found.extend(complaints(path, includes, wanted))
+        found.extend(complaints_about_first(path, includes))
     print("\n".join([*found, f"includes: {len(found)} complaints"]))
     return 1 if found else 0
 

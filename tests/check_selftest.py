@@ -196,24 +196,28 @@ class Includes(Sample):
         self.write("cmake/precompiled.cmake", "set(CAIRN_PRECOMPILED_HEADERS\n  <Eigen/LU> <string> <vector>)\n")
         self.write("src/cairn/core/text.h", "#include <string>\n")
 
-    def expect(self, text, message):
-        self.write("src/cairn/core/text.cpp", text)
+    def expect(self, text, message, own=True):
+        self.write("src/cairn/core/text.cpp", '#include "cairn/core/text.h"\n' + text if own else text)
         code, output = self.check("check_includes.py")
         self.assertEqual(code, 1 if message else 0, output)
         self.assertIn(message or "0 complaints", output)
 
     def test_accepts_what_our_headers_include_and_what_a_header_of_eigen_brings(self):
-        self.expect('#include <Eigen/LU>\n#include "cairn/core/text.h"\nstd::string a;\nEigen::PartialPivLU<Eigen::Matrix3d> b;\n', None)
+        self.expect('#include <Eigen/LU>\nstd::string a;\nEigen::PartialPivLU<Eigen::Matrix3d> b;\n', None)
 
     def test_passes_over_comments_and_text(self):
         self.expect('// std::vector\nconst char* a = "std::vector";\n', None)
 
     def test_refuses_what_is_not_included(self):
-        self.expect('#include "cairn/core/text.h"\n\nstd::vector<int> a;\n',
+        self.expect("\nstd::vector<int> a;\n",
                     "core/text.cpp:3: uses std::vector and does not include <vector>")
 
     def test_refuses_a_library_that_is_not_included(self):
         self.expect("#include <Eigen/Core>\nEigen::Quaterniond a;\n", "does not include <Eigen/Geometry>")
+
+    def test_refuses_a_source_whose_own_header_is_not_the_first(self):
+        self.expect('#include <vector>\n#include "cairn/core/text.h"\n',
+                    'text.cpp: does not include "cairn/core/text.h" before all others', own=False)
 
     def test_refuses_a_precompiled_header_that_it_does_not_know(self):
         self.write("cmake/precompiled.cmake", "set(CAIRN_PRECOMPILED_HEADERS\n  <deque>)\n")
@@ -224,8 +228,8 @@ class Headers(Sample):
     def verify(self, header):
         self.write("src/room/b.h", "#pragma once\nstruct B {};\n")
         self.write("src/room/a.h", header)
-        self.write("src/room/a.cpp", '#include "room/b.h"\n\n#include "room/a.h"\n')
-        self.write("src/room/CMakeLists.txt", "cairn_room(room HEADERS a.h SOURCES a.cpp)\n")
+        self.write("src/room/c.cpp", '#include "room/b.h"\n\n#include "room/a.h"\n')
+        self.write("src/room/CMakeLists.txt", "cairn_room(room HEADERS a.h SOURCES c.cpp)\n")
         self.write("CMakeLists.txt",
                    "cmake_minimum_required(VERSION 3.25)\nproject(sample LANGUAGES CXX)\n"
                    "find_package(Eigen3 REQUIRED)\nfind_package(fmt REQUIRED)\nadd_library(cairn_compile_options INTERFACE)\n"
