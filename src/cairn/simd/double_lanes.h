@@ -6,7 +6,7 @@
 #endif
 
 /// For kernel sources: a vector of doubles as wide as the instruction set has it, with + - * / of the
-/// compiler. What is done lane by lane gives the same bits at any width. Everything has internal linkage, see
+/// compiler. Lane-by-lane operations give the same bits at any width. Everything has internal linkage, see
 /// cmake/kernels.cmake.
 namespace cairn::CAIRN_ISA {
 
@@ -22,7 +22,7 @@ static inline void store(double* to, DoubleLanes value) {
 static inline DoubleLanes broadcast(double value) {
   return _mm512_set1_pd(value);
 }
-/// Lane by lane: a > b ? if_greater : otherwise.
+/// Selects lane by lane: a > b ? if_greater : otherwise.
 static inline DoubleLanes choose(DoubleLanes a, DoubleLanes b, DoubleLanes if_greater,
                                  DoubleLanes otherwise) {
   return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(a, b, _CMP_GT_OQ), otherwise, if_greater);
@@ -38,8 +38,8 @@ static inline DoubleLanes both_quarters(DoubleLanes a, DoubleLanes b) {
 static inline DoubleLanes fours(const DoubleLanes (*eights)[1]) {
   return both_quarters(both_halves(eights[0][0], eights[2][0]), both_halves(eights[4][0], eights[6][0]));
 }
-/// The sums of eight times eight lanes, each in as many vectors as they fill: in one order for all widths,
-/// (l0 + l4) + (l2 + l6) plus (l1 + l5) + (l3 + l7).
+/// Computes the sums of eight times eight lanes, each in as many vectors as they fill, in one order for all
+/// widths: (l0 + l4) + (l2 + l6) plus (l1 + l5) + (l3 + l7).
 static inline void add_eights(const DoubleLanes (*eights)[1], double* sums) {
   const DoubleLanes even = fours(eights), odd = fours(eights + 1);
   store(sums,

@@ -6,7 +6,7 @@
 #endif
 
 /// For kernel sources: a vector of floats as wide as the instruction set has it, with + - * / of the
-/// compiler. What is done lane by lane gives the same bits at any width. Everything has internal linkage, see
+/// compiler. Lane-by-lane operations give the same bits at any width. Everything has internal linkage, see
 /// cmake/kernels.cmake.
 namespace cairn::CAIRN_ISA {
 
@@ -29,7 +29,7 @@ static inline Lanes larger(Lanes a, Lanes b) {
 static inline Lanes smaller(Lanes a, Lanes b) {
   return _mm512_maskz_min_ps(kAll, a, b);
 }
-/// Bit l says whether a >= b in lane l.
+/// Returns a mask: bit l is set if a >= b in lane l.
 static inline unsigned at_least(Lanes a, Lanes b) {
   return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ);
 }
