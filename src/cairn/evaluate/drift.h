@@ -13,7 +13,7 @@ namespace cairn {
 /// Sets the segments over which drift is measured. The defaults are those of the KITTI odometry benchmark;
 /// with others the figures are not comparable with its table.
 struct DriftOptions {
-  std::vector<double> lengths_m = {100, 200, 300, 400, 500, 600, 700, 800};  ///< of path, > 0
+  std::vector<double> lengths_m = {100, 200, 300, 400, 500, 600, 700, 800};  ///< lengths of path, above 0
   std::size_t step = 10;  ///< number of frames between the beginnings of segments
 
   /// Throws PreconditionError if a value is out of range.

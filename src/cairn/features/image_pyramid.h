@@ -26,8 +26,8 @@ struct ImagePyramid {
 struct PyramidOptions {
   int levels = 8;
   double scale = 1.2;  ///< factor between levels, in (1, 1.8]
-  int smallest_side =
-      1;  ///< pixels: levels with a shorter side are left out (at least 16 for all but level 0)
+  /// Pixels: levels with a shorter side are left out, and those after a level with a side below 16.
+  int smallest_side = 1;
 };
 
 /// Builds a pyramid; each level is resized bilinearly from the one before it. Returns an empty one if a side

@@ -9,8 +9,8 @@
 namespace cairn {
 
 constexpr std::size_t kSiftDescriptorBytes = 128;
-constexpr double kSiftCellSigmas =
-    3;  ///< width of one of the 4x4 cells (Lowe's program; section 6.1 has 4 px)
+/// Width of one of the 4x4 cells (Lowe's program; section 6.1 has 4 px).
+constexpr double kSiftCellSigmas = 3;
 
 /// Computes SIFT's 128 bytes (Lowe 2004, section 6.1): 4x4 cells, row by row, of 8 directions each, in a
 /// frame rotated by `angle_deg`. Gradients are taken on a grid of that frame, where all weights are

@@ -14,7 +14,8 @@ using DistortionJacobian = Eigen::Matrix<double, 2, 5>;
 
 // One namespace per lens model, all with the same functions, over points (x/z, y/z) of the image plane at
 // distance 1. Each model is used within its field: from the centre to where the image would fold back. There
-// `distort` and `undistort` undo each other; outside both give nothing.
+// `distort` and `undistort` undo each other; outside, `undistort` returns nullopt and `distort` means
+// nothing.
 
 /// Brown-Conrady k1 k2 p1 p2 k3: OpenCV's documentation of calib3d, "Detailed description".
 namespace radtan {

@@ -29,7 +29,7 @@ class DepthRegistration {
  private:
   /// Holds the rays of the depth pixels in the colour camera's axes, row by row.
   struct Rays {
-    Eigen::ArrayXd x, y, z;         // R * (x/z, y/z, 1); NaN where there is none
+    Eigen::ArrayXd x, y, z;         // R * (x/z, y/z, 1); NaN if there is none
     Eigen::ArrayXd half_u, half_v;  // colour pixels, half the depth pixel's extent at equal distance
   };
   /// Holds the colour pixels that one row of depth pixels covers.
@@ -37,7 +37,7 @@ class DepthRegistration {
     Eigen::Index first_ray = 0;
     Eigen::ArrayXd depth;                           // metres, in the depth camera
     Eigen::ArrayXd z;                               // metres, in the colour camera
-    Eigen::ArrayXd u, v;                            // centres, colour pixels; NaN where there is none
+    Eigen::ArrayXd u, v;                            // centres, colour pixels; NaN if there is none
     Eigen::ArrayXd u_begin, u_end, v_begin, v_end;  // colour pixels that are covered, ends excluded
   };
 

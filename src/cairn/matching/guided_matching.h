@@ -24,8 +24,8 @@ struct EpipolarMatchOptions {
   double min_depth = 0;  ///< minimum depth of the point in the query's camera, in the unit of the translation
   /// Maximum depth of the point in the query's camera, in the unit of the translation.
   double max_depth = std::numeric_limits<double>::infinity();
-  double max_size_ratio =
-      2;  ///< of the keypoints' sizes; depth changes more between any two views than in stereo
+  /// Maximum ratio of the keypoints' sizes; depth changes more between any two views than in stereo.
+  double max_size_ratio = 2;
   MatchOptions matching{std::numeric_limits<double>::infinity(), 0, true};
 
   /// Throws PreconditionError if a limit is out of range.

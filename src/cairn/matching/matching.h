@@ -39,7 +39,7 @@ struct MatchOptions {
 
 // Brute force over all pairs, O(queries * trains). Distances are exact integers (before the root of L2), and
 // of equal ones the lower index is nearer; so results are the same on every processor and at any number of
-// threads. All throw PreconditionError where the two kinds of descriptor differ; an empty side gives nothing.
+// threads. All throw PreconditionError if the two kinds of descriptor differ; an empty side gives no match.
 
 /// Returns the matches that `options` accept, ordered by query, at most one for each.
 [[nodiscard]] std::vector<Match> match_descriptors(const Descriptors& query, const Descriptors& train,

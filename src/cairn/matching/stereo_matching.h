@@ -20,7 +20,8 @@ struct StereoMatchOptions {
   /// Maximum depth, metres: the smallest disparity.
   double max_depth = std::numeric_limits<double>::infinity();
   double row_band = 2;  ///< largest difference of the rows, in units of the larger sigma of both keypoints
-  double max_size_ratio = 1.5;  ///< of the keypoints' sizes: both show one patch from about the same distance
+  double max_size_ratio =
+      1.5;  ///< maximum ratio of the keypoints' sizes: both show one patch from about the same distance
   double max_distance = std::numeric_limits<double>::infinity();  ///< of the descriptors, as Match::distance
   double max_ratio = 0;  ///< as MatchOptions::max_ratio, among the candidates within the other limits
   /// Of the windows, see MeasuredDisparity; below, they show different or hidden things.

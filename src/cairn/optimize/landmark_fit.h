@@ -15,8 +15,8 @@ namespace cairn {
 struct LandmarkFitOptions {
   int min_observations = 3;  ///< fewer make no landmark, because nothing would reveal a wrong one among them
   double max_error = 4;  ///< root of squared_error, standard deviations: exceeded by 1e-3 of chi-square(3)
-  int max_iterations =
-      50;  ///< steps tried for one solution; 2 or 3 are usual, and many where depth is hardly known
+  /// Steps tried for one solution; 2 or 3 are usual, many if the depth is poorly determined.
+  int max_iterations = 50;
   double converged_step = 1e-8;  ///< metres; converged if the next step would be shorter
 
   /// Throws PreconditionError if a value is out of range.

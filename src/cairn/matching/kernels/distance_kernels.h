@@ -15,8 +15,8 @@ struct DistanceTile {
   const std::uint8_t* queries = nullptr;  ///< one after the other, 4 * words bytes each
   std::size_t query_count = 0;
   std::size_t words = 0;  ///< of 32 bits, of one descriptor
-  const std::uint32_t* packed =
-      nullptr;  ///< groups * words * 16; for L2 the top bit of every byte is flipped
+  /// The groups, groups * words * 16 in all; for L2 the top bit of every byte is flipped.
+  const std::uint32_t* packed = nullptr;
   const std::int32_t* squares = nullptr;  ///< L2: sum of the squared bytes of each packed one; else unused
   std::size_t groups = 0;
   std::int32_t* distances = nullptr;  ///< result: query q to packed t at distances[q * 16 * groups + t]
