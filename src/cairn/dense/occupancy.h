@@ -45,9 +45,11 @@ using BlockMask = std::array<std::uint64_t, 8>;
 
 /// Holds the voxels that one frame hit and that its rays passed. Small (a few hundred blocks).
 struct OccupancyUpdate {
+  /// Holds what happened to the voxels of one block.
   struct Masks {
     BlockMask hit{}, passed{};
   };
+  /// Sums the colours of the points that hit one voxel.
   struct HitColor {
     std::uint32_t block;  ///< number in `index`
     std::uint32_t local;

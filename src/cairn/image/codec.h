@@ -29,7 +29,9 @@ struct ImageSize {
 
 /// Writes a PNG file, complete or not at all (see AtomicFile).
 void write_png(const std::filesystem::path& path, const GrayImage& image);
+/// Writes a colour PNG file, complete or not at all.
 void write_png(const std::filesystem::path& path, const RgbImage& image);
+/// Writes a PNG file of 16 bit and one channel, complete or not at all.
 void write_png(const std::filesystem::path& path, const RawDepthImage& image);
 
 }  // namespace cairn

@@ -30,6 +30,7 @@ class Image {
   [[nodiscard]] Pixel* data() { return pixels_.data(); }
   [[nodiscard]] const Pixel* data() const { return pixels_.data(); }
   [[nodiscard]] std::size_t size() const { return pixels_.size(); }
+  /// Tells whether column u and row v lie in the image.
   [[nodiscard]] bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
   bool operator==(const Image&) const = default;
 
@@ -43,6 +44,7 @@ class Image {
   std::vector<Pixel> pixels_;
 };
 
+/// Holds a colour of 8 bit per channel.
 struct Rgb8 {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Rgb8&) const = default;

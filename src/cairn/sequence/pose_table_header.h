@@ -28,6 +28,7 @@ struct TableHeader {
   bool open_ended = false;                  ///< "..." follows the names
   std::array<std::optional<ColumnSource>, kTableColumns> places;  ///< set by check_table_header
 
+  /// Returns the source of a column, nullopt if the table lacks it.
   [[nodiscard]] const std::optional<ColumnSource>& place(TableColumn column) const {
     return places.at(static_cast<std::size_t>(column));
   }

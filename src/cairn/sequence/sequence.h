@@ -103,8 +103,11 @@ class FrameLoader {
   /// Checks the images of a frame without decoding them: only the beginning and the end of each file. Throws
   /// InputError as `load` does.
   void probe(FrameId id) const;
+  /// Loads the colour or left image. Throws InputError as `load` does.
   [[nodiscard]] RgbImage load_color(FrameId id) const;
+  /// Loads the depth image, empty if the frame has none. Throws InputError as `load` does.
   [[nodiscard]] DepthImage load_depth(FrameId id) const;
+  /// Loads the right image, empty if the frame has none. Throws InputError as `load` does.
   [[nodiscard]] GrayImage load_right(FrameId id) const;
 
  private:

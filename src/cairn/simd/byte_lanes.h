@@ -27,12 +27,15 @@ struct Bytes {
     return {_mm512_maskz_mov_epi8(_mm512_cmpge_epu8_mask(v, other.v), v)};
   }
 };
+/// Subtracts; a negative result becomes 0.
 inline Bytes minus(Bytes a, Bytes b) {
   return {_mm512_subs_epu8(a.v, b.v)};
 }
+/// Returns the smaller byte of each pair.
 inline Bytes least(Bytes a, Bytes b) {
   return {_mm512_min_epu8(a.v, b.v)};
 }
+/// Returns the larger byte of each pair.
 inline Bytes most(Bytes a, Bytes b) {
   return {_mm512_max_epu8(a.v, b.v)};
 }
@@ -57,12 +60,15 @@ struct Bytes {
     return {_mm256_and_si256(v, _mm256_cmpeq_epi8(_mm256_max_epu8(v, other.v), v))};
   }
 };
+/// Subtracts; a negative result becomes 0.
 inline Bytes minus(Bytes a, Bytes b) {
   return {_mm256_subs_epu8(a.v, b.v)};
 }
+/// Returns the smaller byte of each pair.
 inline Bytes least(Bytes a, Bytes b) {
   return {_mm256_min_epu8(a.v, b.v)};
 }
+/// Returns the larger byte of each pair.
 inline Bytes most(Bytes a, Bytes b) {
   return {_mm256_max_epu8(a.v, b.v)};
 }
@@ -84,12 +90,15 @@ struct Bytes {
     return {_mm_and_si128(v, _mm_cmpeq_epi8(_mm_max_epu8(v, other.v), v))};
   }
 };
+/// Subtracts; a negative result becomes 0.
 inline Bytes minus(Bytes a, Bytes b) {
   return {_mm_subs_epu8(a.v, b.v)};
 }
+/// Returns the smaller byte of each pair.
 inline Bytes least(Bytes a, Bytes b) {
   return {_mm_min_epu8(a.v, b.v)};
 }
+/// Returns the larger byte of each pair.
 inline Bytes most(Bytes a, Bytes b) {
   return {_mm_max_epu8(a.v, b.v)};
 }
