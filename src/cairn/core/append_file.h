@@ -11,30 +11,30 @@
 
 namespace cairn {
 
-/// How far a AppendFile had come.
+/// Describes the state of an AppendFile.
 struct AppendFileState {
   std::uint64_t bytes = 0;
-  std::uint32_t checksum = 0;  ///< CRC-32 of them
+  std::uint32_t checksum = 0;  ///< CRC-32 of the bytes
   bool operator==(const AppendFileState&) const = default;
 };
 
-/// A file that grows at its end and, after a crash, goes on from where its state was last taken. InputError
-/// where the disk does not do as it should.
+/// Appends to a file that, after a crash, is resumed from its last recorded state. Throws InputError if the
+/// disk fails.
 class AppendFile {
  public:
-  /// Begins anew; a file of that name is emptied.
+  /// Begins a new file; an existing file of that name is emptied.
   explicit AppendFile(const std::filesystem::path& path);
-  /// Goes on after `state`; what was appended later is cut off. InputError where the file is shorter.
+  /// Resumes after `state`; what was appended later is cut off. Throws InputError if the file is shorter.
   AppendFile(const std::filesystem::path& path, const AppendFileState& state);
   ~AppendFile();
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
 
   void append(std::string_view bytes);
-  /// Returns when everything that was appended is on the disk, also should the power fail.
+  /// Returns the state once everything appended is on the disk, safe against a power failure.
   [[nodiscard]] AppendFileState sync();
-  /// Hands out all that was appended, in order and in pieces. InputError at the end where the file holds
-  /// something else by now.
+  /// Passes all that was appended to `take`, in order and in pieces. Throws InputError at the end if the file
+  /// has changed meanwhile.
   void read(const std::function<void(std::string_view piece)>& take);
 
  private:
@@ -47,7 +47,7 @@ class AppendFile {
   Crc32 checksum_;
 };
 
-/// Returns when the file or folder is on the disk. InputError where the disk fails.
+/// Returns once the file or folder is on the disk. Throws InputError if the disk fails.
 void sync_to_disk(const std::filesystem::path& path);
 
 }  // namespace cairn

@@ -6,20 +6,23 @@
 
 namespace cairn {
 
-/// How values are distributed, of any number of them in bounded memory: they are counted in bins whose width
+/// Describes the distribution of any number of values in bounded memory: they are counted in bins whose width
 /// is a thousandth of the value, as in DDSketch (Masson, Rim & Lee 2019). The mean is summed in the order of
 /// the values.
 class Distribution {
  public:
-  /// Not NaN.
+  /// Adds a value, which must not be NaN.
   void add(double value);
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  /// These are exact. PreconditionError where no value was added, for the others, too.
+  /// Returns the exact smallest value. Throws PreconditionError if there are no values.
   [[nodiscard]] double min() const;
+  /// Returns the exact largest value. Throws PreconditionError if there are no values.
   [[nodiscard]] double max() const;
+  /// Returns the mean, summed in the order of the values. Throws PreconditionError if there are no values.
   [[nodiscard]] double mean() const;
-  /// The value that `share` (0 to 1) of the values are at most: the mean of those in its bin, so that it is
-  /// off by a thousandth at most, and exact where all values there are the same, as small whole numbers are.
+  /// Returns the value that `share` (0 to 1) of the values do not exceed: the mean of those in its bin, so
+  /// that its relative error is at most a thousandth; exact if all values of the bin are equal, as for small
+  /// whole numbers. Throws PreconditionError if there are no values.
   [[nodiscard]] double quantile(double share) const;
 
  private:

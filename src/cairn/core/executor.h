@@ -10,10 +10,10 @@ namespace cairn {
 
 /// Runs loops on a fixed number of threads. The program makes one and passes it down. With one thread every
 /// call is a plain loop. What an item computes must not depend on which thread runs it or when; then results
-/// are the same at any number of threads, because results are stored by item and reduced in order.
+/// are the same at any number of threads, because they are stored by item and reduced in order.
 class Executor {
  public:
-  /// `threads` >= 1.
+  /// Uses `threads` threads, at least 1; throws PreconditionError otherwise.
   explicit Executor(int threads = 1);
   ~Executor();
   Executor(const Executor&) = delete;
@@ -28,7 +28,7 @@ class Executor {
   void for_each_chunk(std::size_t count, std::size_t grain,
                       const std::function<void(std::size_t, std::size_t)>& body) const;
 
-  /// The results of produce(i) for i in [0, count), in order.
+  /// Returns the results of produce(i) for i in [0, count), in order.
   template <class Result, class Produce>
   [[nodiscard]] std::vector<Result> map(std::size_t count, const Produce& produce) const {
     std::vector<Result> results(count);
@@ -36,14 +36,14 @@ class Executor {
     return results;
   }
 
-  /// A computation beside the caller's, from its start until it is waited for.
+  /// Holds a computation that runs beside the caller, from its start until it is waited for.
   class Task {
    public:
     Task(Task&&) noexcept;
     Task& operator=(Task&&) = delete;
-    /// Waits; what the computation threw is lost.
+    /// Waits for the computation; an exception that it threw is lost.
     ~Task();
-    /// Returns when the computation is done; rethrows what it threw. To be called once.
+    /// Waits until the computation is done and rethrows what it threw. May be called once.
     void wait();
 
    private:
@@ -54,13 +54,13 @@ class Executor {
   };
 
   /// Starts a computation. With one thread it runs when it is waited for; so it must neither read what the
-  /// caller changes meanwhile nor change what the caller reads. The executor outlives the task.
+  /// caller changes meanwhile nor change what the caller reads. The executor must outlive the task.
   [[nodiscard]] Task start(std::function<void()> work) const;
 
   /// Produces items ahead, in parallel, and consumes them one after the other in order: for decoding and
-  /// features while another thread tracks. `consume` returns false to stop early; at most
-  /// `2 * threads` items exist at a time. An exception of `produce` is rethrown when that item's turn comes:
-  /// what was before it is consumed, what is after it is not.
+  /// features while another thread tracks. `consume` returns false to stop early; at most `2 * threads` items
+  /// exist at a time. An exception of `produce` is rethrown when that item's turn comes: the items before it
+  /// are consumed, those after it are not.
   template <class Item>
   void ordered_pipeline(std::size_t count, const std::function<Item(std::size_t)>& produce,
                         const std::function<bool(std::size_t, Item&&)>& consume) const {

@@ -13,16 +13,16 @@
 
 namespace cairn {
 
-/// A file that is read piece by piece. InputError where it is missing, a folder or unreadable.
+/// Reads a file piece by piece. Throws InputError if it is missing, a folder or unreadable.
 class FileReader {
  public:
   explicit FileReader(const std::filesystem::path& path);
 
-  /// Bytes of the whole file; 0 of what is no regular file.
+  /// Returns the size of the whole file in bytes; 0 if it is not a regular file.
   [[nodiscard]] std::uint64_t size() const { return size_; }
-  /// The next `count` bytes, or fewer where the file ends; returns how many.
+  /// Reads the next `count` bytes, or fewer at the end of the file; returns their number.
   [[nodiscard]] std::size_t read(char* bytes, std::size_t count);
-  /// The next byte read is this one.
+  /// Sets the position of the next byte to be read.
   void seek(std::uint64_t position);
 
  private:
@@ -36,12 +36,12 @@ class FileReader {
   std::uint64_t size_ = 0;
 };
 
-/// The whole file. InputError where it is missing, a folder or unreadable.
+/// Reads the whole file. Throws InputError if it is missing, a folder or unreadable.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
-/// A file that appears under its name only when it is complete: written beside it and renamed by `commit`.
-/// Destroyed before that, it leaves nothing. A link is followed. InputError where the disk is full, the
-/// folder cannot be written, or the name is that of a folder or a device.
+/// Writes a file that appears under its name only when it is complete: it is written beside it and renamed by
+/// `commit`. Leaves nothing if destroyed before that. Follows a link. Throws InputError if the disk is full,
+/// the folder cannot be written, or the name is that of a folder or a device.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& path);
@@ -50,6 +50,7 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void write(std::string_view bytes);
+  /// Completes the file under its name.
   void commit();
 
  private:
@@ -60,33 +61,34 @@ class AtomicFile {
   std::FILE* file_ = nullptr;
 };
 
-/// AtomicFile for contents that are in memory already.
+/// Writes contents that are in memory as an AtomicFile.
 void write_file(const std::filesystem::path& path, std::string_view contents);
 
-/// A path that does not exist yet, in the folder of `path`, for a file written by a library that wants a
-/// name. Rename it to `path` with `commit_file` when it is complete.
+/// Returns a path that does not exist yet, in the folder of `path`, for a library that writes a file by name.
+/// Rename it to `path` by `commit_file` when it is complete.
 [[nodiscard]] std::filesystem::path temporary_beside(const std::filesystem::path& path);
+/// Renames a complete file from temporary_beside to `path`.
 void commit_file(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
-/// InputError for a write to `path` that failed while `doing` ("create the file"), from an errno.
+/// Throws InputError for a write to `path` that failed while `doing` ("create the file"), from an errno.
 [[noreturn]] void fail_writing(const std::filesystem::path& path, std::string_view doing, int error_number);
 
-/// A result folder that appears as a whole: everything is written into `work()`, beside the target, and
-/// `commit` puts it in the target's place. Destroyed before that, the old folder (or none) is left as it was.
+/// Makes a result folder that appears as a whole: everything is written into `work()`, beside the target, and
+/// `commit` moves it to the target. If destroyed before that, the old folder (or none) is left unchanged.
 ///
-/// Refuses (InputError) a target that is a file, a non-empty folder that cairn did not write, and a folder of
-/// another kind: a run must not replace the sequence that it was made from. Both are known by the marker file
-/// `.cairn` inside.
+/// Throws InputError if the target is a file, a non-empty folder that cairn did not write, or a folder of
+/// another kind: a run must not replace the sequence that it was made from. Both are recognised by the marker
+/// file `.cairn` inside.
 ///
 /// A target that cannot be renamed (a mount point, the current folder, a folder in one that may not be
 /// written) is filled in place: only there, a run that is killed within `commit` leaves a mixture.
 class OutputFolder {
  public:
-  /// `kind` is a noun for the marker and for messages: "sequence", "run", "map".
+  /// Prepares the work folder. `kind` is a noun for the marker and for messages: "sequence", "run", "map".
   explicit OutputFolder(const std::filesystem::path& target, std::string_view kind = "result");
-  /// For work that goes on after a crash: `work()` is `<target>.unfinished`, holds what an earlier run has
-  /// left there, and stays if `is_worth_keeping` when this is destroyed before `commit`. InputError where
-  /// another run is at work in it.
+  /// Prepares work that is resumed after a crash: `work()` is `<target>.unfinished`, holds what an earlier
+  /// run has left there, and stays if `is_worth_keeping` when this is destroyed before `commit`. Throws
+  /// InputError if another run uses it.
   OutputFolder(const std::filesystem::path& target, std::string_view kind,
                std::function<bool(const std::filesystem::path& work)> is_worth_keeping);
   ~OutputFolder();
@@ -94,8 +96,9 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& work() const { return work_; }
-  /// As it was given.
+  /// Returns the target as it was given.
   [[nodiscard]] const std::filesystem::path& target() const { return given_; }
+  /// Moves the work folder to the target.
   void commit();
 
  private:

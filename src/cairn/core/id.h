@@ -7,13 +7,13 @@
 
 namespace cairn {
 
-/// An index that cannot be mixed up with an index of another kind.
+/// Wraps an index so that it cannot be mixed up with an index of another kind.
 template <class Tag>
 struct Id {
   std::int32_t value = -1;
 
   [[nodiscard]] bool valid() const { return value >= 0; }
-  /// Returns the position in a container of what the id, which is valid, stands for.
+  /// Returns the id, which must be valid, as the position in a container.
   [[nodiscard]] std::size_t index() const { return static_cast<std::size_t>(value); }
   auto operator<=>(const Id&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 errs
 };

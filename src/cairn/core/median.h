@@ -7,8 +7,8 @@
 
 namespace cairn {
 
-/// Returns the value in the middle of `values`, of an even number the larger of the two there. They must not
-/// be empty.
+/// Returns the median of `values`, which must not be empty; for an even number the larger of the two in the
+/// middle.
 inline double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

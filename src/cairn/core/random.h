@@ -5,7 +5,7 @@
 
 namespace cairn {
 
-/// Random numbers that depend on nothing but (seed, stream): give every work item a stream of its own and the
+/// Generates random numbers that depend on nothing but (seed, stream): with a stream for every work item the
 /// result is the same at any number of threads. SplitMix64 (Steele, Lea, Flood 2014).
 class Random {
  public:

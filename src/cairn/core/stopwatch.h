@@ -5,11 +5,11 @@
 
 namespace cairn {
 
-/// Wall-clock seconds since it was made.
+/// Measures wall-clock seconds since it was made.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const { return since(begun_); }
-  /// Seconds since the last lap, or since it was made.
+  /// Returns the seconds since the last lap, or since it was made.
   double lap() {
     const double seconds = since(lap_);
     lap_ = Clock::now();

@@ -9,18 +9,17 @@
 
 namespace cairn {
 
-/// One line of a text file that holds something, split into fields. Views into the TextFile it came from.
+/// Holds one non-empty line of a text file, split into fields: views into the TextFile.
 struct TextLine {
   int number = 0;  ///< 1-based
   std::vector<std::string_view> fields;
 };
 
-/// What stands between the fields of a line: white space, or commas, where blanks around a field are left
-/// out.
+/// Names the separator of a line's fields: white space, or commas, with blanks around a field left out.
 enum class Separator { blanks, commas };
 
-/// A text file read whole; empty lines and what follows a '#' are left out. Field accessors throw InputError
-/// that names file and line.
+/// Holds a text file; empty lines and what follows a '#' are left out. Field accessors throw InputError that
+/// names file and line.
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& path, Separator separator = Separator::blanks);
@@ -28,11 +27,13 @@ class TextFile {
   [[nodiscard]] const std::vector<TextLine>& lines() const { return lines_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// The field as a finite number. `what` names it in the message ("tx").
+  /// Returns the field as a finite number. `what` names it in the message ("tx").
   [[nodiscard]] double number(const TextLine& line, std::size_t field, std::string_view what) const;
+  /// Returns the field as an integer. `what` names it in the message.
   [[nodiscard]] std::int64_t integer(const TextLine& line, std::size_t field, std::string_view what) const;
-  /// InputError unless the line has `count` fields; `layout` names them ("t tx ty tz qx qy qz qw").
+  /// Throws InputError unless the line has `count` fields; `layout` names them ("t tx ty tz qx qy qz qw").
   void expect_fields(const TextLine& line, std::size_t count, std::string_view layout) const;
+  /// Throws InputError for this line.
   [[noreturn]] void fail(const TextLine& line, std::string expected, std::string found,
                          std::string remedy) const;
 
@@ -42,24 +43,25 @@ class TextFile {
   std::vector<TextLine> lines_;
 };
 
-/// Decimal seconds ("1305031453.359684") to nanoseconds, exact to the nanosecond; false where it is no
-/// number.
+/// Converts decimal seconds ("1305031453.359684") to nanoseconds, exactly unless the text has an exponent or
+/// a minus sign. Returns false if it is not a number.
 [[nodiscard]] bool parse_stamp(std::string_view text, std::int64_t& stamp_ns);
-/// The whole of `text` as a finite double or an integer; false where it is none.
+/// Parses the whole of `text` as a finite number. Returns false if it is none.
 [[nodiscard]] bool parse_number(std::string_view text, double& value);
+/// Parses the whole of `text` as an integer. Returns false if it is none.
 [[nodiscard]] bool parse_integer(std::string_view text, std::int64_t& value);
-/// Nanoseconds as seconds with nine decimals.
+/// Formats nanoseconds as seconds with nine decimals.
 [[nodiscard]] std::string format_stamp(std::int64_t stamp_ns);
 
 /// Orders names as people count: runs of digits compare as numbers of any length, all else byte by byte, so
-/// that "cam0_2.png" comes before "cam0_10.png". Names that differ by leading zeros only come with the most
-/// zeros first. A strict weak order, and two different names are never equal.
+/// that "cam0_2.png" comes before "cam0_10.png". Of names that differ only by leading zeros, the one with the
+/// most zeros comes first. A strict weak order in which two different names are never equal.
 [[nodiscard]] bool comes_naturally_before(std::string_view a, std::string_view b);
 
-/// Letters to put in, take out or replace until one word is the other (Levenshtein).
+/// Computes the number of letters to insert, delete or replace until one word is the other (Levenshtein).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The element of `known` with the smallest edit distance to `word`, for "did you mean".
+/// Returns the element of `known` with the smallest edit distance to `word`, for "did you mean".
 [[nodiscard]] std::string nearest_name(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace cairn

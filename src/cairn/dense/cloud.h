@@ -9,51 +9,55 @@
 
 namespace cairn {
 
-/// A point in the world, metres, with its colour.
+/// Holds a point in the world, metres, with its colour.
 struct CloudPoint {
   float x = 0, y = 0, z = 0;
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const CloudPoint&) const = default;
 };
 
+/// Holds the points of a cloud.
 struct Cloud {
   std::vector<CloudPoint> points;
-  bool colored = true;  ///< false where the colours mean nothing (a file without them)
+  bool colored = true;  ///< false if the colours have no meaning (a file without them)
 };
 
-/// Corners of the box around all points, metres. Both zero for an empty cloud.
+/// Holds the corners of the box around all points, metres. Both are zero for an empty cloud.
 struct CloudBounds {
   Eigen::Vector3f low = Eigen::Vector3f::Zero(), high = Eigen::Vector3f::Zero();
 };
+/// Computes the box around all points.
 [[nodiscard]] CloudBounds bounds_of(const Cloud& cloud);
 
+/// Sets which depths enter a cloud and how it is thinned.
 struct CloudOptions {
   double voxel_size = 0.01;  ///< metres: about a Kinect's depth noise at 2 m, so no detail is lost below it
-  double min_depth = 0.1;    ///< metres along the optical axis: nearer is no surface but a broken reading
-  double max_depth = 4.0;    ///< metres: beyond, an RGB-D camera's noise (2.5 to 4 cm) blurs the cloud
+  double min_depth = 0.1;    ///< metres along the optical axis; a smaller depth is a faulty reading
+  double max_depth = 4.0;    ///< metres; beyond, an RGB-D camera's noise (2.5 to 4 cm) blurs the cloud
 
-  /// Where depths two pixels apart differ by more than this share, both are left out: they mix foreground and
-  /// background. A plane seen at 80 degrees stays (0.02); 0 keeps all.
+  /// Share by which depths two pixels apart may differ; beyond, both are left out, because they mix
+  /// foreground and background. A plane seen at 80 degrees stays (0.02); 0 keeps all.
   double max_edge_step = 0.05;
 
-  /// Throws InputError naming the parameter or field for a voxel of 0, a negative or reversed depth, a
-  /// negative step.
+  /// Throws InputError that names the parameter or field if a voxel is not above 0, a depth is negative, the
+  /// depths are reversed, or the step is negative.
   void validate() const;
 };
 
-/// Visits voxel_grid and cloud.max_depth; the other fields are the program's own.
+/// Visits voxel_grid and cloud.max_depth; only the program sets the other fields.
 void visit(CloudOptions& options, ParameterVisitor& visitor);
 
-/// Fuses frames into one point per voxel: the centroid of all points that fell into it, with their mean
-/// colour. The result does not depend on the order of the frames nor on threads: sums are integers.
+/// Fuses frames into one point per voxel: the centroid of all points that fall into it, with their mean
+/// colour. The result depends neither on the order of the frames nor on threads: sums are integers.
 ///
-/// One thread: add(depth, color, rays, pose) for each frame. Several: reduce() frames in parallel (it is
-/// const and safe to call from several threads) and add() the reduced ones from one thread.
+/// With one thread, call add(depth, color, rays, pose) for each frame. With several, reduce() frames in
+/// parallel (it is const and safe to call from several threads) and add() the reduced ones from one thread.
 class CloudBuilder {
  public:
   explicit CloudBuilder(const CloudOptions& options = {});
 
-  /// One frame's points, one per voxel. About 5 ms for 640x480.
+  /// Reduces one frame to one point per voxel. Takes about 5 ms for 640x480. Throws PreconditionError if
+  /// `color` is empty.
   [[nodiscard]] VoxelSums reduce(const DepthImage& depth, const RgbImage& color, const PixelRays& rays,
                                  const Rigid3& world_from_camera) const;
   void add(const VoxelSums& frame) { sums_.add(frame); }
@@ -63,7 +67,7 @@ class CloudBuilder {
   }
 
   [[nodiscard]] std::size_t size() const { return sums_.size(); }  ///< points so far
-  /// The cloud, in order of the voxels; the builder is empty afterwards.
+  /// Returns the cloud in order of the voxels; the builder is empty afterwards.
   [[nodiscard]] Cloud take();
 
  private:

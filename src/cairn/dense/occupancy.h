@@ -14,39 +14,42 @@
 
 namespace cairn {
 
-/// The sensor model of Hornung et al. 2013 (OctoMap), section 3.2; the probabilities are OctoMap's defaults.
+/// Sets the sensor model of Hornung et al. 2013 (OctoMap), section 3.2; the probabilities are OctoMap's
+/// defaults.
 struct OccupancyOptions {
   double resolution = 0.05;   ///< metres: half of the narrowest gap that a robot must tell from a wall
-  double max_range = 4.0;     ///< metres from the camera: farther points carve free space up to here, no hit
+  double max_range = 4.0;     ///< metres from the camera; farther points only carve free space up to here
   double hit = 0.7;           ///< probability of "occupied" after one hit
-  double miss = 0.4;          ///< ... after one ray that passed through
-  double clamp_min = 0.1192;  ///< bounds that keep the map able to change its mind
-  double clamp_max = 0.971;
-  double threshold = 0.5;  ///< a voxel at or above is occupied
+  double miss = 0.4;          ///< probability of "occupied" after one ray that passed through
+  double clamp_min = 0.1192;  ///< lower bound of the probability, which keeps the map able to change
+  double clamp_max = 0.971;   ///< upper bound of the probability, which keeps the map able to change
+  double threshold = 0.5;     ///< a voxel with this probability or more is occupied
 
-  /// Throws InputError naming the parameter or field that is out of range.
+  /// Throws InputError that names the parameter or field that is out of range.
   void validate() const;
 };
 
-/// Visits octree.resolution and octree.max_range; the other fields are the sensor model's.
+/// Visits octree.resolution and octree.max_range; the other fields belong to the sensor model.
 void visit(OccupancyOptions& options, ParameterVisitor& visitor);
 
-/// One voxel of the map that was seen at least once.
+/// Describes one voxel of the map that was seen at least once.
 struct OccupancyVoxel {
   Eigen::Vector3i position;  ///< (0,0,0) spans [0, resolution) on every axis
   float log_odds = 0;
   bool occupied = false;
-  Rgb8 color;  ///< mean of the points that hit it; black where the map has no colour
+  Rgb8 color;  ///< mean of the points that hit it; black if the map has no colour
 };
 
 /// One bit for each voxel of a block: word z, bit 8 y + x.
 using BlockMask = std::array<std::uint64_t, 8>;
 
-/// What one frame says: which voxels it hit and through which its rays passed. Small (a few hundred blocks).
+/// Holds the voxels that one frame hit and that its rays passed. Small (a few hundred blocks).
 struct OccupancyUpdate {
+  /// Holds what happened to the voxels of one block.
   struct Masks {
     BlockMask hit{}, passed{};
   };
+  /// Sums the colours of the points that hit one voxel.
   struct HitColor {
     std::uint32_t block;  ///< number in `index`
     std::uint32_t local;
@@ -57,20 +60,23 @@ struct OccupancyUpdate {
   std::vector<HitColor> colors;
 };
 
-/// Occupied, free and unknown space. Each frame updates each voxel at most once, a hit goes before a miss, as
-/// octomap::OcTree::insertPointCloud with discretisation does; the voxels are the same ones, too.
+/// Holds occupied, free and unknown space. Each frame updates each voxel at most once, and a hit takes
+/// precedence over a miss, as in octomap::OcTree::insertPointCloud with discretisation; the voxels are the
+/// same ones, too.
 ///
-/// Several threads: scan() frames in parallel (const) and apply() the updates from one thread, in the order
-/// of the frames (clamping makes the order matter).
+/// With several threads, scan() frames in parallel (const) and apply() the updates from one thread, in the
+/// order of the frames (clamping makes the order matter).
 class OccupancyGrid {
  public:
   explicit OccupancyGrid(const OccupancyOptions& options = {});
 
-  /// `color` may be empty; then the map has no colour. Depth images in metres, 0 where there is none.
+  /// Finds the voxels that a frame hits and passes. `depth` is in metres, 0 if unknown; `color` may be empty,
+  /// then the map has no colour.
   [[nodiscard]] OccupancyUpdate scan(const DepthImage& depth, const RgbImage& color, const PixelRays& rays,
                                      const Rigid3& world_from_camera) const;
+  /// Applies an update of `scan` to the map.
   void apply(const OccupancyUpdate& update);
-  /// One hit for each voxel that holds a point. There are no viewpoints, so nothing becomes free.
+  /// Counts one hit for each voxel that holds a point. There are no viewpoints, so nothing becomes free.
   void add_cloud(const Cloud& cloud);
 
   [[nodiscard]] const OccupancyOptions& options() const { return options_; }
@@ -78,6 +84,7 @@ class OccupancyGrid {
   /// Calls visit for each known voxel, block by block in order of the block keys.
   void visit_sorted(const std::function<void(const OccupancyVoxel&)>& visit) const;
 
+  /// Counts the known voxels.
   struct Counts {
     std::int64_t occupied = 0, free = 0;
   };

@@ -9,27 +9,28 @@
 
 namespace cairn {
 
-/// What an octree file holds.
+/// Names what an octree file holds.
 enum class OctreeContents {
   binary,  ///< .bt: occupied, free or unknown (octomap::OcTree)
   plain,   ///< .ot: log odds (octomap::OcTree)
   color    ///< .ot: log odds and colour (octomap::ColorOcTree)
 };
 
-/// For people: "occupied and free", "probabilities", "probabilities and colours".
+/// Describes the contents for people: "occupied and free", "probabilities", "probabilities and colours".
 [[nodiscard]] std::string_view to_string(OctreeContents contents);
 
-/// By the extension: .bt is binary; .ot is coloured where the map is, else plain. InputError for another
-/// extension.
+/// Returns the contents for an extension: .bt is binary; .ot is coloured if the map is, else plain. Throws
+/// InputError for another extension.
 [[nodiscard]] OctreeContents octree_contents(const std::filesystem::path& path, bool colored);
 
+/// Describes a file that was written.
 struct OctreeFileReport {
-  std::int64_t nodes = 0;  ///< of the pruned tree
+  std::int64_t nodes = 0;  ///< nodes of the pruned tree
   std::int64_t bytes = 0;
 };
 
 /// Writes the map as a pruned octree that OctoMap's own tools read. The file appears when it is complete.
-/// InputError where it cannot be written.
+/// Throws InputError if it cannot be written.
 OctreeFileReport write_octree(const std::filesystem::path& path, const OccupancyGrid& grid,
                               OctreeContents contents);
 

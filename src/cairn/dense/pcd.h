@@ -7,11 +7,11 @@
 
 namespace cairn {
 
-/// The points of a PCD file (Point Cloud Library), ascii or binary; other fields are skipped. InputError for
-/// whatever is wrong, binary_compressed included; sizes are checked before counts are believed.
+/// Reads the points of a PCD file (Point Cloud Library), ascii or binary; skips other fields. Throws
+/// InputError for any defect and for binary_compressed; checks sizes before it trusts counts.
 [[nodiscard]] Cloud read_pcd(const std::filesystem::path& path);
 
-/// Binary, version 0.7: x y z and PCL's packed rgb. The file appears when it is complete.
+/// Writes a binary PCD file, version 0.7: x y z and PCL's packed rgb. The file appears when it is complete.
 void write_pcd(const std::filesystem::path& path, const Cloud& cloud);
 
 }  // namespace cairn

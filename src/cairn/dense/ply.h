@@ -7,11 +7,12 @@
 
 namespace cairn {
 
-/// The vertices of a PLY file, ascii or binary little endian; other properties and what follows the vertices
-/// (faces) are skipped. InputError for whatever is wrong; sizes are checked before counts are believed.
+/// Reads the vertices of a PLY file, ascii or binary little endian; skips other properties and what follows
+/// the vertices (faces). Throws InputError for any defect; checks sizes before it trusts counts.
 [[nodiscard]] Cloud read_ply(const std::filesystem::path& path);
 
-/// Binary little endian: x y z as float, red green blue as uchar. The file appears when it is complete.
+/// Writes a PLY file, binary little endian: x y z as float, red green blue as uchar. The file appears when it
+/// is complete.
 void write_ply(const std::filesystem::path& path, const Cloud& cloud);
 
 }  // namespace cairn

@@ -14,33 +14,36 @@
 
 namespace cairn {
 
-/// One named value of a point in a file, as PLY's properties and PCD's fields declare it.
+/// Describes one named value of a point in a file, as PLY's properties and PCD's fields declare it.
 struct PointField {
   std::string name;
   char kind = 'F';        ///< 'F' floating point, 'I' signed, 'U' unsigned
   std::size_t size = 4;   ///< bytes: 1, 2, 4 or 8
-  std::size_t count = 1;  ///< values, above 1 only in PCD
+  std::size_t count = 1;  ///< number of values, above 1 only in PCD
 };
 
-/// Where a file's points begin.
+/// Refers to the points of a file.
 struct PointData {
   std::string_view bytes;  ///< all that follows the header
-  std::size_t count = 0;   ///< points that the header announces
+  std::size_t count = 0;   ///< number of points that the header announces
   int first_line = 1;      ///< number of the first line of text
 };
 
-/// Points as rows of fields: what PLY and PCD have in common. Finds x, y, z and the colour (red, green, blue
-/// as bytes, or PCL's packed rgb); skips all others. Points without finite coordinates ("no measurement" in
-/// organised clouds) are left out.
+/// Reads points as rows of fields, for PLY and PCD. Finds x, y, z and the colour (red, green, blue as bytes,
+/// or PCL's packed rgb); skips all others. Leaves out points without finite coordinates ("no measurement" in
+/// organised clouds).
 class PointRecords {
  public:
-  /// InputError where a coordinate is missing or the colour is of a type that is not read.
+  /// Finds the fields. Throws InputError if a coordinate is missing or the type of the colour is not
+  /// supported.
   PointRecords(const std::filesystem::path& path, std::vector<PointField> fields);
 
   [[nodiscard]] std::size_t bytes_per_point() const { return stride_; }
-  /// InputError where the data is shorter than announced, before anything is allocated for it.
+  /// Reads binary records. Throws InputError if the data is shorter than announced, before anything is
+  /// allocated for it.
   [[nodiscard]] Cloud read_binary(const PointData& data) const;
-  /// The same for text, one point a line; names the line of a value that is no number.
+  /// Reads text, one point a line. Throws InputError if the data is shorter than announced or, with its line,
+  /// if a value is not a number.
   [[nodiscard]] Cloud read_ascii(const PointData& data) const;
 
  private:
@@ -82,9 +85,9 @@ void write_records(AtomicFile& file, const Cloud& cloud, std::size_t bytes_per_p
   file.write({buffer.data(), filled});
 }
 
-/// The next line of `text` from `begin` on, without its end of line; `begin` moves behind it.
+/// Returns the next line of `text` from `begin` on, without its end of line, and moves `begin` behind it.
 [[nodiscard]] std::string_view next_line(std::string_view text, std::size_t& begin);
-/// The words of a line.
+/// Returns the words of a line.
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
 
 }  // namespace cairn

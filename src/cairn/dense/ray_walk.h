@@ -13,15 +13,16 @@ class RayWalk {
   /// `origin_in_world` and `resolution` in metres.
   RayWalk(const Eigen::Vector3f& origin_in_world, double resolution, OccupancyUpdate& update);
 
-  /// Marks as passed what lies between the origin and `end_in_world`, from the origin's voxel to the one
-  /// before the end's. Amanatides and Woo 1987, with the arithmetic of octomap's computeRayKeys, so that the
+  /// Marks the voxels between the origin and `end_in_world` as passed, from the origin's voxel to the one
+  /// before the end's (Amanatides and Woo 1987), with the arithmetic of octomap's computeRayKeys, so that the
   /// same voxels are met.
   void pass_to(const Eigen::Vector3f& end_in_world);
-  /// Marks one voxel as hit; the number of its block.
+  /// Marks one voxel as hit; returns the number of its block.
   std::uint32_t hit(const VoxelKey& voxel);
 
-  /// The voxel that a point lies in, and the middle of a voxel.
+  /// Returns the voxel in which a point lies.
   [[nodiscard]] VoxelKey voxel_at(const Eigen::Vector3f& point_in_world) const;
+  /// Returns the centre of a voxel, metres.
   [[nodiscard]] Eigen::Vector3f centre_of(const VoxelKey& voxel) const;
 
  private:

@@ -19,29 +19,30 @@ inline constexpr std::int32_t kVoxelOffset = 1 << (kVoxelBits - 1);  ///< stored
 
 /// A voxel's position on the grid, offset so that it is never negative.
 using VoxelKey = std::array<std::uint32_t, 3>;
-/// The block's position, 18 bits an axis, z highest: the order in which results are written.
+/// A block's position, 18 bits an axis, z highest: the order in which results are written.
 using BlockKey = std::uint64_t;
 
+/// Returns the block that holds a voxel.
 [[nodiscard]] inline BlockKey block_of(const VoxelKey& voxel) {
   constexpr int kBits = kVoxelBits - kBlockBits;
   return static_cast<BlockKey>(voxel[2] >> kBlockBits) << (2 * kBits) |
          static_cast<BlockKey>(voxel[1] >> kBlockBits) << kBits | voxel[0] >> kBlockBits;
 }
 
-/// Number of a voxel within its block, [0, 512), z highest.
+/// Returns the number of a voxel within its block, [0, 512), z highest.
 [[nodiscard]] inline std::uint32_t local_of(const VoxelKey& voxel) {
   constexpr std::uint32_t kMask = (1U << kBlockBits) - 1;
   return (voxel[2] & kMask) << (2 * kBlockBits) | (voxel[1] & kMask) << kBlockBits | (voxel[0] & kMask);
 }
 
-/// The voxel `local` of a block.
+/// Returns the voxel with number `local` in a block.
 [[nodiscard]] VoxelKey voxel_in_block(BlockKey block, std::uint32_t local);
 
-/// InputError unless all that is seen within `reach` metres of `centre` lies on a grid of `voxel_size`.
+/// Throws InputError unless everything within `reach` metres of `centre` lies on a grid of `voxel_size`.
 /// `span` is the number of voxels that an axis may have (2^21 here, 2^16 in an OctoMap file).
 void require_on_grid(const Eigen::Vector3d& centre, double reach, double voxel_size, double span);
 
-/// Gives each block key that it meets the next number, from 0; finds it again by open addressing.
+/// Numbers block keys from 0 in the order in which they are inserted; finds them by open addressing.
 class BlockIndex {
  public:
   static constexpr std::uint32_t kNone = 0xffffffff;
@@ -49,11 +50,11 @@ class BlockIndex {
   BlockIndex();
   [[nodiscard]] std::size_t size() const { return keys_.size(); }
   [[nodiscard]] BlockKey key(std::size_t number) const { return keys_[number]; }
-  /// The block's number, or kNone.
+  /// Returns the block's number, or kNone.
   [[nodiscard]] std::uint32_t find(BlockKey key) const { return slots_[slot_of(key)]; }
-  /// The block's number; it is `size() - 1` after a call with a new key.
+  /// Returns the block's number, which is `size() - 1` after a call with a new key.
   std::uint32_t find_or_insert(BlockKey key);
-  /// Numbers of all blocks in increasing order of their keys.
+  /// Returns the numbers of all blocks in increasing order of their keys.
   [[nodiscard]] std::vector<std::uint32_t> sorted() const;
 
  private:

@@ -13,24 +13,25 @@
 
 namespace cairn {
 
-/// What fell into one voxel. All sums are integers, so that they do not depend on the order of adding.
+/// Sums the points of one voxel. All sums are integers, so that they do not depend on the order of adding.
 struct VoxelSum {
   std::uint32_t count = 0;
   std::uint32_t x = 0, y = 0, z = 0;  ///< offsets from the voxel's lower corner, in 1/1024 of its size
   std::uint32_t r = 0, g = 0, b = 0;
 };
 
-/// Voxels of one size, each with the sums of the points that fell into it. Used for one frame and for a whole
-/// map; 28 bytes a voxel, 2 kB a block. A voxel stops summing at 2^22 points, when its mean is long settled.
+/// Holds voxels of one size, each with the sums of its points. Used for one frame and for a whole map; 28
+/// bytes a voxel, 2 kB a block. A voxel stops summing at 2^22 points, when its mean has long settled.
 class VoxelSums {
  public:
   /// `voxel_size` in metres, above 0.
   explicit VoxelSums(double voxel_size);
 
   /// Adds a depth image's points with depth in (min_depth, max_depth]. `color` is empty or of the same size.
-  /// InputError where points would lie outside the grid.
+  /// Throws InputError if points would lie outside the grid.
   void add_image(const DepthImage& depth, const RgbImage& color, const PixelRays& rays,
                  const Rigid3& world_from_camera, double min_depth, double max_depth);
+  /// Adds one point.
   void add_point(const Eigen::Vector3d& point_in_world, const Rgb8& color);
   /// Adds all voxels of a grid with the same voxel size.
   void add(const VoxelSums& other);
@@ -42,7 +43,7 @@ class VoxelSums {
   void visit_sorted(const Visit& visit) const {
     for (const std::uint32_t block : index_.sorted()) visit_block(block, visit);
   }
-  /// The mean of a voxel's points, metres.
+  /// Returns the mean of a voxel's points, metres.
   [[nodiscard]] Eigen::Vector3d mean(const VoxelKey& key, const VoxelSum& sum) const;
 
  private:
@@ -71,7 +72,7 @@ class VoxelSums {
   std::vector<std::unique_ptr<VoxelSum[]>> chunks_;
 };
 
-/// The mean colour, rounded; black for no points.
+/// Returns the mean colour, rounded; black for no points.
 [[nodiscard]] Rgb8 mean_color(const VoxelSum& sum);
 
 }  // namespace cairn

@@ -7,7 +7,7 @@
 
 namespace cairn {
 
-/// What is said of a set of errors, in their unit; as evo and the TUM tools (numpy) define it.
+/// Summarises a set of errors, in their unit, as evo and the TUM tools (numpy) do.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0;  ///< sqrt(mean of squares)
@@ -18,11 +18,11 @@ struct ErrorStatistics {
   double max = 0;
 };
 
-/// Nothing for no errors. Sums run in order: the same bits each time.
+/// Computes the statistics. Returns nullopt for no errors. Sums run in order: the same bits each time.
 [[nodiscard]] std::optional<ErrorStatistics> summarize_errors(std::span<const double> errors);
 
-/// Returns the error that `percent` (0 to 100) of the errors are at most, interpolated linearly between two
-/// of them as numpy's percentile does. PreconditionError for no errors or another percentage.
+/// Returns the error that `percent` (0 to 100) of the errors do not exceed, interpolated linearly between two
+/// of them as numpy's percentile does. Throws PreconditionError for no errors or another percentage.
 [[nodiscard]] double percentile_of(std::span<const double> errors, double percent);
 
 }  // namespace cairn

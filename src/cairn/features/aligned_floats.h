@@ -6,9 +6,9 @@
 
 namespace cairn {
 
-/// Floats that begin at a cache line, so that vectors of a row do not straddle two; not initialised. Much
-/// memory is taken in large pages where the system has them: the patches of keypoints lie on hundreds of
-/// small ones, more than a processor keeps the addresses of.
+/// Owns uninitialised floats that begin at a cache line, so that vectors of a row do not straddle two. Large
+/// blocks are placed in large pages if the system has them: the patches of keypoints lie on hundreds of small
+/// pages, more than a processor caches the addresses of.
 class AlignedFloats {
  public:
   explicit AlignedFloats(std::size_t count);

@@ -8,14 +8,14 @@
 
 namespace cairn {
 
-/// Finds the keypoints around a place without looking at all. Keypoints that are not finite are in no place.
+/// Finds the keypoints around a position without looking at all. Never finds keypoints that are not finite.
 class KeypointGrid {
  public:
-  /// `keypoints` must outlive the grid.
+  /// Sorts `keypoints`, which must outlive the grid, into cells.
   explicit KeypointGrid(const std::vector<Keypoint>& keypoints);
 
-  /// Appends the indices of the keypoints at most `radius_px` from (u, v), in no meaningful but always the
-  /// same order. Nothing for a place or a radius that is no number or negative.
+  /// Appends the indices of the keypoints at most `radius_px` from (u, v), always in the same order, which
+  /// has no meaning. Appends none if the position is not finite, or the radius is NaN or negative.
   void find(double u, double v, double radius_px, std::vector<std::int32_t>& indices) const;
 
  private:

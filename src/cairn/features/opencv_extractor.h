@@ -7,7 +7,8 @@
 
 namespace cairn {
 
-/// OpenCV's detectors and descriptors; the names are valid, fit together and are in capitals.
+/// Makes an extractor of OpenCV's detectors and descriptors. The names must be valid, fit together and be in
+/// capitals.
 [[nodiscard]] std::unique_ptr<Extractor> make_opencv_extractor(const FeatureOptions& options);
 
 }  // namespace cairn

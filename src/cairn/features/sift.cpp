@@ -79,7 +79,8 @@ std::vector<ScalePoint> uniform(const ScaleSpace& space, const std::vector<Scale
   return selected;
 }
 
-/// The same of features: points of several directions may have made more than wanted.
+/// Selects the strongest features, uniform over the image: points with several directions may have given more
+/// than wanted.
 Features uniform(const ScaleSpace& space, const std::vector<Described>& described, std::size_t count) {
   std::vector<PixelPosition> places;
   for (const Described& feature : described) places.push_back({feature.keypoint.u, feature.keypoint.v});

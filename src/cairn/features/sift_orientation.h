@@ -7,9 +7,9 @@
 
 namespace cairn {
 
-/// Directions of the gradients around the point that prevail: peaks of their histogram that reach 0.8 of the
-/// highest (Lowe 2004, section 5), highest first, at least one. Degrees in [0, 360), clockwise from the x
-/// axis.
+/// Finds the dominant directions of the gradients around the point: peaks of their histogram that reach 0.8
+/// of the highest (Lowe 2004, section 5), highest first, at least one. Degrees in [0, 360), clockwise from
+/// the x axis.
 [[nodiscard]] std::vector<float> sift_orientations(const ScaleSpace& space, const ScalePoint& point);
 
 }  // namespace cairn

@@ -7,18 +7,19 @@ namespace cairn {
 
 constexpr int kPatchSlack = 16;  ///< floats readable after a patch, for kernels
 
-/// A square patch around a scale point.
+/// Describes a square patch around a scale point.
 struct Patch {
-  double angle_deg = 0;  ///< of its columns, clockwise from the x axis
+  double angle_deg = 0;  ///< direction of its columns, clockwise from the x axis
   double step = 1;       ///< between samples, in sigmas of the point
-  int gradients = 0;     ///< on a side; those amid the first gradients + 1 samples lie around the point
-  int side = 0;          ///< samples on a side, a multiple of 16
+  /// Gradients on a side; those between the first gradients + 1 samples lie around the point.
+  int gradients = 0;
+  int side = 0;  ///< samples on a side, a multiple of 16
 };
 
-/// Samples the level of the point's octave whose smoothing is nearest to the point's.
+/// Samples a patch on the level of the point's octave whose smoothing is nearest to the point's.
 void sample_patch(const ScaleSpace& space, const ScalePoint& point, const Patch& patch, float* samples);
 
-/// Asks the processor for the pixels of patches that reach `reach` sigmas around the point, in good time.
+/// Prefetches the pixels of patches that reach `reach` sigmas around the point.
 void prefetch_patch(const ScaleSpace& space, const ScalePoint& point, double reach);
 
 }  // namespace cairn

@@ -9,12 +9,13 @@
 #include "cairn/features/aligned_floats.h"
 #include "cairn/features/kernels/blur_kernels.h"
 
-/// What filters of the scale space's levels have in common.
+/// Rows and levels of floats that the filters of the scale space share.
 namespace cairn {
 
-constexpr int kStripRows = 64;  ///< that one thread works on: intermediate rows of a strip stay in its cache
+/// Rows that one thread processes at a time: their intermediate rows stay in its cache.
+constexpr int kStripRows = 64;
 
-/// An image of floats in memory of someone else; rows are readable to a multiple of kBlurStep.
+/// Refers to an image of floats owned elsewhere; rows are readable to a multiple of kBlurStep.
 struct ScaleLevel {
   float* pixels = nullptr;
   int width = 0, height = 0, stride = 0;
@@ -22,11 +23,12 @@ struct ScaleLevel {
   [[nodiscard]] float* row(int v) const { return pixels + static_cast<std::ptrdiff_t>(v) * stride; }
 };
 
+/// Rounds up to the next multiple of `step`.
 [[nodiscard]] inline int round_up(int value, int step) {
   return (value + step - 1) / step * step;
 }
 
-/// Rows with room on both sides, where their outermost values go on.
+/// Holds rows with a margin on both sides, into which their outermost values are repeated.
 class PaddedRows {
  public:
   PaddedRows(int width, int rows, int margin)
@@ -37,6 +39,7 @@ class PaddedRows {
   [[nodiscard]] float* row(int v) const {
     return floats_.data() + static_cast<std::ptrdiff_t>(v) * stride_ + margin_;
   }
+  /// Fills the margins of a row.
   void pad(int v) {
     float* pixels = row(v);
     std::fill(pixels - margin_, pixels, pixels[0]);
@@ -48,7 +51,7 @@ class PaddedRows {
   AlignedFloats floats_;
 };
 
-/// Pointers to the rows [begin - margin, end + margin) of a level, whose border rows go on.
+/// Holds pointers to the rows [begin - margin, end + margin) of a level; its border rows repeat outside.
 class RowTable {
  public:
   RowTable(const ScaleLevel& level, int begin, int end, int margin) : first_(begin - margin) {
@@ -62,7 +65,7 @@ class RowTable {
   std::vector<const float*> rows_;
 };
 
-/// Calls work(begin, end) for strips of rows.
+/// Calls work(begin, end) for strips of kStripRows rows.
 template <class Work>
 void for_each_strip(int height, const Executor& executor, const Work& work) {
   executor.for_each_chunk(

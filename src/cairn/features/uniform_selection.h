@@ -6,14 +6,14 @@
 
 namespace cairn {
 
-/// A place in an image, in pixels.
+/// Describes a position in an image, pixels.
 struct PixelPosition {
   float u = 0, v = 0;
 };
 
-/// Indices, ascending, of `count` of the places, or of all where there are not more. They come strongest
-/// first, and the strongest are kept, but half of the count is shared out evenly among the cells of a grid
-/// over the image.
+/// Returns the indices, ascending, of `count` of the positions, or of all if there are not more. The
+/// positions come strongest first. The strongest are kept, but half of the count is distributed evenly over
+/// the cells of a grid on the image.
 [[nodiscard]] std::vector<std::size_t> select_uniform(const std::vector<PixelPosition>& places, int width,
                                                       int height, std::size_t count);
 

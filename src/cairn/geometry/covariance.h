@@ -5,9 +5,9 @@
 
 namespace cairn {
 
-/// Returns the covariance that `matrix` is up to rounding: symmetric to the last bit, and no variance below
-/// zero. NaN and infinity stay. Every product and inverse that states a covariance goes through here, as the
-/// files take none that is not symmetric.
+/// Returns `matrix`, a covariance up to rounding, made symmetric to the last bit and without variances below
+/// zero. NaN and infinity stay. Every product and inverse that states a covariance goes through here, because
+/// the files accept only symmetric ones.
 template <class Derived>
 [[nodiscard]] typename Derived::PlainObject as_covariance(const Eigen::MatrixBase<Derived>& matrix) {
   const typename Derived::PlainObject given = matrix;
@@ -17,7 +17,7 @@ template <class Derived>
   return covariance;
 }
 
-/// Computes the covariance J C J^T of y = J x, where C is that of x.
+/// Computes the covariance J C J^T of y = J x, with C the covariance of x.
 template <class Jacobian, class Covariance>
 [[nodiscard]] auto propagate_covariance(const Eigen::MatrixBase<Jacobian>& jacobian,
                                         const Eigen::MatrixBase<Covariance>& covariance) {

@@ -5,8 +5,8 @@
 
 namespace cairn {
 
-/// Names of frames for the types of transforms. They say the kind of a frame, not which one: the worlds of
-/// two runs have one name.
+/// Names the frames in the types of transforms: the kind of a frame, not which one. The worlds of two runs
+/// have one name.
 namespace frame {
 struct World;
 struct Camera;
@@ -16,9 +16,9 @@ struct ViewA;  ///< camera of the first of two views
 struct ViewB;  ///< camera of the second of two views
 }  // namespace frame
 
-/// A Rigid3 whose type says its frames: point_in_to = to_from * point_in_from. It composes only where the
-/// inner frames agree, and stands only where its own frames are asked for. Whoever knows the frames of a
-/// Rigid3 says so by converting it; the other way, for solvers to which frames do not matter, needs no word.
+/// Describes a Rigid3 whose type names its frames: point_in_to = to_from * point_in_from. It composes only if
+/// the inner frames agree. A Rigid3 becomes a Transform by an explicit conversion; a Transform is accepted as
+/// a Rigid3 by solvers that do not depend on frames.
 template <class To, class From>
 struct Transform : Rigid3 {
   Transform() = default;
@@ -29,15 +29,16 @@ struct Transform : Rigid3 {
   [[nodiscard]] Transform<From, To> inverse() const { return Transform<From, To>(Rigid3::inverse()); }
 };
 
+/// Composes two transforms that share the inner frame B.
 template <class A, class B, class C>
 [[nodiscard]] Transform<A, C> operator*(const Transform<A, B>& a_from_b, const Transform<B, C>& b_from_c) {
   return Transform<A, C>(static_cast<const Rigid3&>(a_from_b) * static_cast<const Rigid3&>(b_from_c));
 }
-/// The inner frames differ. Deleted, because the product of two Rigid3 would take it.
+/// Deleted, because the inner frames differ and the product of two Rigid3 would be taken instead.
 template <class A, class B, class C, class D>
 void operator*(const Transform<A, B>& a_from_b, const Transform<C, D>& c_from_d) = delete;
 
-/// A perturbation of a transform leaves its frames.
+/// Perturbs a transform on the left; its frames stay.
 template <class To, class From>
 [[nodiscard]] Transform<To, From> perturb_left(const Vector6d& xi, const Transform<To, From>& to_from) {
   return Transform<To, From>(perturb_left(xi, static_cast<const Rigid3&>(to_from)));

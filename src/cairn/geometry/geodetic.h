@@ -3,8 +3,8 @@
 
 namespace cairn {
 
-/// Where the origin of a georeferenced world lies on the Earth (WGS 84); its axes are east, north and up
-/// there.
+/// Describes the origin of a georeferenced world on the Earth (WGS 84); the axes of the world are east, north
+/// and up there.
 struct GeodeticOrigin {
   double latitude_deg = 0;   ///< -90 to 90
   double longitude_deg = 0;  ///< -180 to 180

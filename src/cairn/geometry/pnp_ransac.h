@@ -9,19 +9,20 @@
 
 namespace cairn {
 
+/// Holds the result of solve_pnp_ransac.
 struct PnpResult : RansacReport {
   CameraFromWorld camera_from_world;
 };
 
-/// Camera pose from points and their observations in RANSAC: P3P (solve_p3p), scored by squared_error with
-/// squared_error_limit, refined by Gauss-Newton steps on the inliers. PreconditionError for points and pixels
-/// that are not finite.
+/// Estimates a camera pose from points and their observations by RANSAC: P3P (solve_p3p), scored by
+/// squared_error with squared_error_limit, refined by Gauss-Newton steps on the inliers. Throws
+/// PreconditionError if the spans differ in length or a point or pixel is not finite.
 [[nodiscard]] PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                          std::span<const Observation> seen, const RansacOptions& options);
 
-/// Which observations a pose from elsewhere explains, and whether so many would agree by chance with some
-/// pose as well: status is ok, by_chance, or too_few_data for fewer than P3P takes. PreconditionError as
-/// above.
+/// Finds the observations that a given pose explains, and judges whether so many would agree by chance with
+/// some pose: the status is ok, by_chance, or too_few_data if there are fewer than three. Throws
+/// PreconditionError if the spans differ in length or a point or pixel is not finite.
 [[nodiscard]] RansacReport judge_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                       std::span<const Observation> seen,
                                       const CameraFromWorld& camera_from_world);

@@ -6,15 +6,17 @@
 
 namespace cairn {
 
-/// PreconditionError unless there are as many `b` as `a`, all finite, and `sigma` is above 0.
+/// Throws PreconditionError unless `a` and `b` have one length, all points are finite, and `sigma` is above
+/// 0.
 void require_point_pairs(std::span<const Eigen::Vector2d> a, std::span<const Eigen::Vector2d> b,
                          double sigma);
 
-/// The smallest upright rectangle around points: what a wrong point is taken to be spread over.
+/// Describes the bounding rectangle of points, over which outliers are assumed to be spread.
 struct PlaneExtent {
   double diagonal = 0;
   double area = 0;
 };
+/// Computes the bounding rectangle of `points`; zero for no points.
 [[nodiscard]] PlaneExtent extent_of(std::span<const Eigen::Vector2d> points);
 
 }  // namespace cairn

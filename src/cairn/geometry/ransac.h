@@ -14,36 +14,40 @@
 
 namespace cairn {
 
+/// Sets how long RANSAC samples and with which random numbers.
 struct RansacOptions {
-  int max_iterations = 500;   ///< enough for 20 % inliers of samples of three: 1 - (1 - 0.2^3)^500 = 98 %
-  double confidence = 0.999;  ///< stop once a better sample is this unlikely
+  int max_iterations = 500;  ///< enough for samples of three with 20 % inliers: 1 - (1 - 0.2^3)^500 = 98 %
+  /// Sampling stops once a sample of inliers alone was drawn with this probability.
+  double confidence = 0.999;
   std::uint64_t seed = 1;
-  std::uint64_t item = 0;  ///< which of many problems this is; each has random numbers of its own
+  std::uint64_t item = 0;  ///< number of this problem among many; each has its own random numbers
 
-  /// PreconditionError for fewer than one iteration and for a confidence outside (0, 1).
+  /// Throws PreconditionError if max_iterations is below 1 or confidence is not in (0, 1).
   void validate() const;
 };
 
+/// Says if a model was found and, if not, why.
 enum class RansacStatus {
   ok,
   too_few_data,  ///< fewer than a sample
-  degenerate,    ///< no sample, or not the inliers together, determine a model
+  degenerate,    ///< no sample, or not all inliers together, determine a model
   by_chance,     ///< a model was found that wrong data would support as well: see log10_false_alarms
 };
 
 [[nodiscard]] std::string_view to_string(RansacStatus status);
 
-/// What the engine says beside the model. Unless `status` is ok or by_chance there is no model.
+/// Describes how a model was found. There is no model unless `status` is ok or by_chance.
 struct RansacReport {
   RansacStatus status = RansacStatus::too_few_data;
   std::vector<std::int32_t> inliers;  ///< positions of data within their limit, increasing
   int iterations = 0;                 ///< samples drawn
   double cost = 0;                    ///< sum of squared errors, each at most its limit (MSAC)
-  /// Logarithm of the number of models with so many inliers to be expected of data that have nothing to do
-  /// with each other; the model is believed below -2.
+  /// Decimal logarithm of the number of models with at least so many inliers that are expected if the data
+  /// are unrelated; the model is accepted below -2.
   double log10_false_alarms = 0;
 
-  /// What the number of false alarms says of a model that is determined.
+  /// Returns ok if the number of false alarms is low enough to accept a model that is determined, else
+  /// by_chance.
   [[nodiscard]] RansacStatus verdict() const {
     constexpr double kBelieved = -2;
     return log10_false_alarms < kBelieved ? RansacStatus::ok : RansacStatus::by_chance;
@@ -51,12 +55,13 @@ struct RansacReport {
   [[nodiscard]] bool found() const { return status == RansacStatus::ok; }
 };
 
+/// Holds a model and how it was found.
 template <class Model>
 struct RansacResult : RansacReport {
   Model model{};
 };
 
-/// `N` different indices below `count`, count >= N.
+/// Draws `N` different indices below `count`; count must be at least N.
 template <std::size_t N>
 [[nodiscard]] std::array<std::uint32_t, N> draw_sample(Random& random, std::uint32_t count) {
   std::array<std::uint32_t, N> sample{};
@@ -69,31 +74,31 @@ template <std::size_t N>
   return sample;
 }
 
-/// Samples until one of inliers alone has been drawn with the options' confidence (Fischler and Bolles 1981,
-/// sec. II.B), at most max_iterations.
+/// Computes the number of samples after which one of inliers alone has been drawn with the options'
+/// confidence (Fischler and Bolles 1981, sec. II.B), at most max_iterations.
 [[nodiscard]] int samples_needed(std::size_t inliers, std::size_t count, std::size_t sample_size,
                                  const RansacOptions& options);
 
-/// Decimal logarithm of the number of false alarms of a model with `inliers` of `count` data, from `models`
-/// models per sample, where a wrong datum is an inlier with probability `chance` (Moisan and Stival 2004,
-/// prop. 1, with a fixed limit): models C(count, inliers) C(inliers, sample_size) chance^(inliers -
-/// sample_size).
+/// Computes the decimal logarithm of the number of false alarms of a model with `inliers` of `count` data,
+/// from `models` models per sample, if an outlier is within the limit with probability `chance` (Moisan and
+/// Stival 2004, prop. 1, with a fixed limit): models C(count, inliers) C(inliers, sample_size)
+/// chance^(inliers - sample_size).
 [[nodiscard]] double log10_false_alarms(std::size_t inliers, std::size_t count, std::size_t sample_size,
                                         std::size_t models, double chance);
 
-/// RANSAC (Fischler and Bolles 1981) with bounded squared errors as the score (MSAC, Torr and Zisserman
-/// 2000), local optimisation of each new best model by least squares over inliers whose limit shrinks
-/// (LO-RANSAC, Chum, Matas, Kittler 2003, "iterative") and adaptive stop. One engine for all problems.
-/// Deterministic from seed and item; one thread. A Problem has
+/// Estimates a model by RANSAC (Fischler and Bolles 1981) with bounded squared errors as the score (MSAC,
+/// Torr and Zisserman 2000), local optimisation of each new best model by least squares over inliers whose
+/// limit shrinks (LO-RANSAC, Chum, Matas, Kittler 2003, "iterative") and adaptive stop. One engine for all
+/// problems. Deterministic from seed and item; one thread. A Problem has
 ///
 ///     using Model;                            what is estimated, ready for squared_error
-///     kSampleSize, kMaxModels                 data in a sample, models that one can give
+///     kSampleSize, kMaxModels                 data in a sample, models that one sample can give
 ///     size()                                  number of data
-///     solve(sample, models) -> size_t         the models of a minimal sample; returns how many
-///     squared_error(model, i) -> double       of a datum, in variances; infinite where it cannot be
+///     solve(sample, models) -> size_t         computes the models of a minimal sample; returns how many
+///     squared_error(model, i) -> double       of datum i, in variances; infinite if undefined
 ///     limit(i) -> double                      of squared_error of an inlier: a chi-square quantile
-///     refine(inliers, model) -> bool          least squares over inliers from model; false: undetermined
-///     chance() -> double                      that a wrong datum is an inlier
+///     refine(inliers, model) -> bool          least squares over inliers from model; false if undetermined
+///     chance() -> double                      probability that an outlier is within the limit
 template <class Problem>
 class Ransac {
  public:
@@ -119,7 +124,7 @@ class Ransac {
     std::size_t inliers = 0;
   };
 
-  /// Stops once the cost is no better than the best: most models are wrong and say so early.
+  /// Scores a model; stops once its cost reaches the best: most models are wrong and show it early.
   [[nodiscard]] Score score(const Model& model) const {
     Score sum;
     for (std::size_t i = 0; i < problem_.size() && sum.cost < best_.cost; ++i) {
@@ -164,7 +169,7 @@ class Ransac {
     }
   }
 
-  /// Least squares until the inliers stay the same.
+  /// Refines the best model by least squares until its cost no longer falls.
   void finish() {
     result_.status = RansacStatus::degenerate;
     if (best_.cost == std::numeric_limits<double>::infinity()) return;

@@ -11,31 +11,33 @@
 
 namespace cairn {
 
-/// One observation of a landmark: column, row and disparity in the (undistorted) left image. Stereo measures
-/// the disparity; from a depth z it is fx * baseline / z with a virtual baseline; without either it is NaN.
+/// Describes one observation of a landmark: column, row and disparity in the (undistorted) left image. Stereo
+/// measures the disparity; from a depth z it is fx * baseline / z with a virtual baseline; without either it
+/// is NaN.
 struct Observation {
-  double u = 0, v = 0;                                  ///< pixels
-  double d = std::numeric_limits<double>::quiet_NaN();  ///< pixels
+  double u = 0, v = 0;                                  ///< column and row, pixels
+  double d = std::numeric_limits<double>::quiet_NaN();  ///< disparity, pixels; NaN if not measured
   double sigma_px = 1;                                  ///< standard deviation of u and of v
   double sigma_d_px = 1;                                ///< standard deviation of d
 
   [[nodiscard]] bool has_disparity() const { return d == d; }
 };
 
-/// A pinhole camera with a second one `baseline` metres to its right: what every residual here projects with.
+/// Describes a pinhole camera with a second one `baseline` metres to its right; all residuals are projected
+/// with it.
 struct Rig {
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< pixels
   double baseline = 0;                    ///< metres, above 0
 
   [[nodiscard]] double disparity(double depth) const { return fx * baseline / depth; }
   [[nodiscard]] double depth(double disparity_px) const { return fx * baseline / disparity_px; }
-  /// (u, v, d) of a point in front of the camera: u = fx x/z + cx, v = fy y/z + cy, d = fx b/z.
+  /// Computes (u, v, d) of a point in front of the camera: u = fx x/z + cx, v = fy y/z + cy, d = fx b/z.
   [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_in_camera) const {
     const double inverse_depth = 1.0 / point_in_camera.z();
     return {fx * point_in_camera.x() * inverse_depth + cx, fy * point_in_camera.y() * inverse_depth + cy,
             fx * baseline * inverse_depth};
   }
-  /// Its derivative: rows u, v, d; columns x, y, z.
+  /// Computes the derivative of `project` by the point: rows u, v, d; columns x, y, z.
   [[nodiscard]] Eigen::Matrix3d projection_jacobian(const Eigen::Vector3d& point_in_camera) const {
     const double inverse_depth = 1.0 / point_in_camera.z();
     const double x = point_in_camera.x() * inverse_depth, y = point_in_camera.y() * inverse_depth;
@@ -43,25 +45,26 @@ struct Rig {
     jacobian << fx, 0, -fx * x, 0, fy, -fy * y, 0, 0, -fx * baseline * inverse_depth;
     return jacobian * inverse_depth;
   }
+  /// Computes the point in the camera's frame at `depth` (metres, along z) on the ray through (u, v).
   [[nodiscard]] Eigen::Vector3d point_at(double u, double v, double depth) const {
     return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};
   }
 };
 
-/// Whether a point can be seen: its depth is above a micrometre.
+/// Tells whether a point is in front of the camera: its depth is above a micrometre.
 [[nodiscard]] inline bool is_in_front(const Eigen::Vector3d& point_in_camera) {
   constexpr double kMinDepth = 1e-6;
   return point_in_camera.z() > kMinDepth;
 }
 
-/// The inverse variances of u, v and d; 0 for a disparity that was not measured.
+/// Computes the inverse variances of u, v and d; that of a disparity that was not measured is 0.
 [[nodiscard]] inline Eigen::Vector3d inverse_variances(const Observation& seen) {
   const double of_pixel = 1.0 / (seen.sigma_px * seen.sigma_px);
   return {of_pixel, of_pixel, seen.has_disparity() ? 1.0 / (seen.sigma_d_px * seen.sigma_d_px) : 0.0};
 }
 
-/// Squared error of an observation in units of its standard deviations: (du^2 + dv^2) / sigma^2 [+ dd^2 /
-/// sigma_d^2]. Infinite for a point that is not in front of the camera.
+/// Computes the squared error of an observation in units of its standard deviations: (du^2 + dv^2) / sigma^2
+/// [+ dd^2 / sigma_d^2]. Returns infinity if the point is not in front of the camera.
 [[nodiscard]] inline double squared_error(const Rig& rig, const Eigen::Vector3d& point_in_camera,
                                           const Observation& seen) {
   if (!is_in_front(point_in_camera)) return std::numeric_limits<double>::infinity();
@@ -72,8 +75,8 @@ struct Rig {
   return du * du + dv * dv + dd * dd;
 }
 
-/// Returns the squared_error that 95 % of the correct observations like `seen` stay below: chi-square with 3
-/// degrees of freedom if it has a disparity, else with 2.
+/// Returns the squared_error below which 95 % of the correct observations like `seen` stay: the quantile of
+/// chi-square with 3 degrees of freedom if it has a disparity, else with 2.
 [[nodiscard]] inline double squared_error_limit(const Observation& seen) {
   return seen.has_disparity() ? kInlierLimit3 : kInlierLimit2;
 }

@@ -6,8 +6,8 @@
 
 namespace cairn {
 
-/// The quaternion over its length; as it is where that is 1 up to rounding, so that a rotation which was
-/// written out with all digits comes back bit by bit. Its length is not 0.
+/// Returns the quaternion divided by its length, which must not be 0. Returns it unchanged if the length is 1
+/// up to rounding, so that a rotation written with all digits is read back bit by bit.
 [[nodiscard]] inline Eigen::Quaterniond unit_rotation(const Eigen::Quaterniond& rotation) {
   constexpr double kRounding = 1e-15;  // what normalized() leaves
   return std::abs(rotation.norm() - 1.0) <= kRounding ? rotation : rotation.normalized();

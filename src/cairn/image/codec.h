@@ -8,28 +8,30 @@
 
 namespace cairn {
 
-/// Decoding of PNG, JPEG and binary PGM/PPM; the format is taken from the file's first bytes, not its name.
-/// InputError for a file that is missing, broken, of another format, or of a pixel type that does not fit.
+/// Decodes PNG, JPEG and binary PGM/PPM; the format follows from the file's first bytes, not its name. Throws
+/// InputError if a file is missing, broken, of another format, or of a pixel type that does not fit.
 
-/// 8-bit grey; colour is converted (Rec. 601 luma).
+/// Reads an image as 8-bit grey; converts colour to Rec. 601 luma.
 [[nodiscard]] GrayImage read_gray(const std::filesystem::path& path);
-/// 8-bit colour; grey is spread over the three channels.
+/// Reads an image as 8-bit colour; repeats grey in the three channels.
 [[nodiscard]] RgbImage read_rgb(const std::filesystem::path& path);
-/// 16-bit single channel (PNG or PGM). An 8-bit or colour image is an InputError: it is no depth image.
+/// Reads a depth image of 16 bit and one channel (PNG or PGM). Throws InputError if it has 8 bit or colour.
 [[nodiscard]] RawDepthImage read_depth(const std::filesystem::path& path);
 
-/// Width and height of an image.
+/// Holds width and height of an image, pixels.
 struct ImageSize {
   int width = 0, height = 0;
   bool operator==(const ImageSize&) const = default;
 };
-/// The size that the file's header says, without decoding. InputError for a file that is missing, empty, of
-/// another format or cut, as far as its beginning and its end tell.
+/// Returns the size that the file's header states, without decoding. Throws InputError if the file is
+/// missing, empty, of another format or, as far as its beginning and its end tell, truncated.
 [[nodiscard]] ImageSize probe_image(const std::filesystem::path& path);
 
-/// PNG files, complete or not there at all (see AtomicFile).
+/// Writes a PNG file, complete or not at all (see AtomicFile).
 void write_png(const std::filesystem::path& path, const GrayImage& image);
+/// Writes a colour PNG file, complete or not at all.
 void write_png(const std::filesystem::path& path, const RgbImage& image);
+/// Writes a PNG file of 16 bit and one channel, complete or not at all.
 void write_png(const std::filesystem::path& path, const RawDepthImage& image);
 
 }  // namespace cairn

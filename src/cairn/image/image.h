@@ -9,7 +9,7 @@
 
 namespace cairn {
 
-/// A dense image, row by row without padding. Pixel (0,0) is the top left.
+/// Holds a dense image, row by row without padding. Pixel (0, 0) is the top left.
 template <class Pixel>
 class Image {
  public:
@@ -22,7 +22,7 @@ class Image {
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] bool empty() const { return pixels_.empty(); }
-  /// Unchecked: column u in [0, width), row v in [0, height).
+  /// Returns the pixel in column u, [0, width), and row v, [0, height); not checked.
   [[nodiscard]] Pixel& operator()(int u, int v) { return row(v)[u]; }
   [[nodiscard]] const Pixel& operator()(int u, int v) const { return row(v)[u]; }
   [[nodiscard]] Pixel* row(int v) { return pixels_.data() + offset(v); }
@@ -30,6 +30,7 @@ class Image {
   [[nodiscard]] Pixel* data() { return pixels_.data(); }
   [[nodiscard]] const Pixel* data() const { return pixels_.data(); }
   [[nodiscard]] std::size_t size() const { return pixels_.size(); }
+  /// Tells whether column u and row v lie in the image.
   [[nodiscard]] bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
   bool operator==(const Image&) const = default;
 
@@ -43,6 +44,7 @@ class Image {
   std::vector<Pixel> pixels_;
 };
 
+/// Holds a colour of 8 bit per channel.
 struct Rgb8 {
   std::uint8_t r = 0, g = 0, b = 0;
   bool operator==(const Rgb8&) const = default;
@@ -51,6 +53,6 @@ struct Rgb8 {
 using GrayImage = Image<std::uint8_t>;
 using RgbImage = Image<Rgb8>;
 using RawDepthImage = Image<std::uint16_t>;  ///< depth as stored, in the sensor's units
-using DepthImage = Image<float>;             ///< metres along the optical axis; 0 where there is none
+using DepthImage = Image<float>;             ///< metres along the optical axis; 0 if unknown
 
 }  // namespace cairn

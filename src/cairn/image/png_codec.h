@@ -8,8 +8,8 @@
 
 namespace cairn {
 
-/// An image as its file holds it, before it becomes one of the image types: samples interleaved, 16-bit ones
-/// in the machine's byte order.
+/// Holds an image as its file does, before it becomes one of the image types: samples interleaved, 16-bit
+/// ones in the machine's byte order.
 struct DecodedImage {
   int width = 0;
   int height = 0;
@@ -18,7 +18,8 @@ struct DecodedImage {
   std::vector<std::uint8_t> samples;
 };
 
-/// Larger images are refused before memory is taken for what a broken header says.
+/// Tells whether a size is accepted; larger images are refused before memory is allocated for a broken
+/// header.
 [[nodiscard]] constexpr bool is_image_size(std::int64_t width, std::int64_t height) {
   constexpr std::int64_t kMaxSide = 32768, kMaxPixels = std::int64_t{1} << 28;
   return width > 0 && height > 0 && width <= kMaxSide && height <= kMaxSide && width * height <= kMaxPixels;
@@ -29,7 +30,7 @@ constexpr const char* kImageSizeLimit = "an image of at most 32768 pixels a side
 /// Returns an empty string, or what is wrong with the file.
 [[nodiscard]] std::string decode_png(std::string_view bytes, DecodedImage& image);
 
-/// Encodes; `samples` as in DecodedImage. Throws std::runtime_error where libpng fails.
+/// Encodes an image as a PNG in memory. Throws std::runtime_error if libpng fails.
 [[nodiscard]] std::string encode_png(const DecodedImage& image);
 
 }  // namespace cairn

@@ -11,26 +11,29 @@
 
 namespace cairn {
 
-/// Images of one camera as another one in the same place, which may be turned, would have taken them: for
-/// undistortion and rectification. Where each pixel comes from is computed once, to 1/256 pixel; images are
-/// interpolated bilinearly in integers. The same bits at any number of threads and on every processor. Safe
-/// to call from several threads.
+/// Remaps images of one camera to those that another one at the same position, possibly rotated, would have
+/// taken: for undistortion and rectification. The source of each pixel is computed once, to 1/256 pixel;
+/// images are interpolated bilinearly in integers. Gives the same bits at any number of threads and on every
+/// processor. Safe to call from several threads.
 class ImageRemap {
  public:
-  /// `source_from_target` turns the target's rays into the source's frame.
+  /// Computes the sources; `source_from_target` rotates the target's rays into the source's frame.
   ImageRemap(const Camera& source, const Camera& target, const Eigen::Quaterniond& source_from_target,
              const Executor& executor = Executor());
 
-  /// Black where the source camera sees nothing. PreconditionError unless `image` has its size.
+  /// Remaps a grey image; pixels that the source camera does not see are black. Throws PreconditionError
+  /// unless `image` has the source camera's size.
   [[nodiscard]] GrayImage operator()(const GrayImage& image, const Executor& executor = Executor()) const;
+  /// Remaps a colour image; pixels that the source camera does not see are black. Throws PreconditionError
+  /// unless `image` has the source camera's size.
   [[nodiscard]] RgbImage operator()(const RgbImage& image, const Executor& executor = Executor()) const;
 
-  /// True for a pixel of the target that the source camera sees: up to half a pixel beyond the centres of its
+  /// Tells whether the source camera sees a pixel of the target: up to half a pixel beyond the centres of its
   /// outermost pixels.
   [[nodiscard]] bool sees(int u, int v) const { return origins_(u, v).offset >= 0; }
 
  private:
-  /// The upper left of four source pixels, and the share (of 256) of those to the right and below.
+  /// Holds the upper left of four source pixels, and the share (of 256) of those to the right and below.
   struct Origin {
     std::int32_t offset = -1;  // in pixels from the first; -1: nothing
     std::uint16_t right = 0, below = 0;

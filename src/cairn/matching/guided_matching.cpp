@@ -69,7 +69,7 @@ struct Columns {
   std::vector<float> u, v, size, sigma;
 };
 
-/// Which trains a query may match.
+/// Finds the trains that a query may match.
 class EpipolarSearch {
  public:
   EpipolarSearch(const CameraFeatures& query, const CameraFeatures& train, const Rigid3& train_from_query,

@@ -81,7 +81,7 @@ struct Rows {
   std::vector<float> sizes_, max_sigmas_;  // ascending, and the largest sigma up to each
 };
 
-/// Which right features a left one may match.
+/// Finds the right features that a left one may match.
 class StereoSearch {
  public:
   StereoSearch(const Rig& rig, const StereoSide& left, const StereoSide& right,

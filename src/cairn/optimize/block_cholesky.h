@@ -10,34 +10,35 @@
 
 namespace cairn {
 
-/// The lower triangle of a symmetric matrix of 6x6 blocks, by columns of blocks. Within a column the rows
-/// increase from the diagonal on.
+/// Holds the lower triangle of a symmetric matrix of 6x6 blocks by columns of blocks; within a column the
+/// rows increase from the diagonal on.
 struct BlockMatrix {
-  std::vector<std::size_t> begin;  ///< of each column in the two below, and one more
+  std::vector<std::size_t> begin;  ///< begin of each column in `rows` and `blocks`, and their size
   std::vector<std::int32_t> rows;
   std::vector<Matrix6d> blocks;
 
   [[nodiscard]] std::size_t columns() const { return begin.size() - 1; }
 };
 
-/// Solves with matrices of one pattern, again and again.
+/// Solves linear systems whose matrices share one pattern.
 class BlockCholesky {
  public:
   virtual ~BlockCholesky() = default;
-  /// The x of matrix * x = right; false where the matrix is not positive definite.
+  /// Computes the x of matrix * x = right. Returns false if the matrix is not positive definite.
   [[nodiscard]] virtual bool solve(const BlockMatrix& matrix, const Eigen::VectorXd& right,
                                    Eigen::VectorXd& x) = 0;
 };
 
+/// Names the factorisation.
 enum class BlockCholeskyMethod {
   dense,
   sparse,  ///< ordered by approximate minimum degree (Amestoy, Davis, Duff 1996)
 };
 
-/// The faster one for the matrix's pattern.
+/// Returns the method that is faster for the matrix's pattern.
 [[nodiscard]] BlockCholeskyMethod choose_method(const BlockMatrix& pattern);
 
-/// One thread, deterministic.
+/// Makes a solver for matrices of this pattern. It uses one thread and is deterministic.
 [[nodiscard]] std::unique_ptr<BlockCholesky> make_block_cholesky(const BlockMatrix& pattern,
                                                                  BlockCholeskyMethod method);
 

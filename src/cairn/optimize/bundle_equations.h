@@ -10,7 +10,7 @@
 
 namespace cairn {
 
-/// camera_from_world with the rotation as a matrix, which is faster to apply to many points.
+/// Describes camera_from_world with the rotation as a matrix, which is faster to apply to many points.
 struct MatrixPose {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
@@ -25,23 +25,25 @@ struct MatrixPose {
 }
 [[nodiscard]] std::vector<MatrixPose> to_matrix_poses(const std::vector<Rigid3>& poses);
 
-/// Where cameras and points are, and what each term costs there: rho(squared_error).
+/// Holds the estimates of cameras and points, and the cost rho(squared_error) of each term.
 struct BundleState {
   std::vector<Rigid3> camera_from_world;
-  std::vector<MatrixPose> matrix_poses;  ///< the same
+  std::vector<MatrixPose> matrix_poses;  ///< camera_from_world as matrices
   std::vector<Eigen::Vector3d> points;   ///< in the structure's order
   std::vector<double> term_costs;
-  double cost = 0;  ///< half their sum
+  double cost = 0;  ///< half the sum of term_costs
 
-  /// The problem's start, at no cost.
+  /// Takes the start of the problem; all costs are 0.
   BundleState(const BundleProblem& problem, const BundleStructure& structure);
+  /// Sets the pose of a camera in both forms.
   void set_camera(std::size_t camera, const Rigid3& pose);
+  /// Sets `cost` to half the sum of term_costs.
   void sum_costs();
 };
 
-/// The normal equations of a bundle. With U the cameras' part, V the points' (3x3 blocks on its diagonal) and
-/// Z between the two, J^T W J = (U Z; Z^T V), all damped by Marquardt's lambda times their diagonal. With V =
-/// L L^T (Cholesky), Y = Z L^-T and h = L^-1 g_points,
+/// Holds and solves the normal equations of a bundle. With U the cameras' part, V the points' (3x3 blocks on
+/// its diagonal) and Z between the two, J^T W J = (U Z; Z^T V), all damped by Marquardt's lambda times their
+/// diagonal. With V = L L^T (Cholesky), Y = Z L^-T and h = L^-1 g_points,
 ///
 ///     (U - Y Y^T) step_cameras = -g_cameras + Y h,    step_points = -L^-T (h + Y^T step_cameras).
 ///
@@ -49,29 +51,29 @@ struct BundleState {
 /// the gradient g and the Hessian H of its cost by p: with B = (-[p]x, I), U = B^T H B and Z = B^T H R.
 class BundleEquations {
  public:
-  /// All must outlive this.
+  /// Refers to its arguments, which must outlive it.
   BundleEquations(const Rig& rig, const BundleStructure& structure, const BundleOptions& options,
                   const Executor& executor);
 
-  /// Sets up the equations at the state. Terms behind their camera and of undetermined points are dropped.
+  /// Builds the equations at the state. Drops the terms behind their camera and those of undetermined points.
   void build(const BundleState& state, double lambda);
-  /// False where the cameras' equations have no solution.
+  /// Solves for the step of the cameras. Returns false if their equations have no solution.
   [[nodiscard]] bool solve();
-  /// The state after the step, with its costs. A point that its step would take behind a camera stays; a
-  /// dropped term, and one that is behind its camera nevertheless, costs what it did.
+  /// Computes the state after the step and its costs. A point that its step would move behind a camera is not
+  /// moved. A dropped term, and one that is behind its camera nevertheless, keeps its cost.
   void move(const BundleState& from, BundleState& to) const;
-  /// The costs at the state's places; a term behind its camera costs what it did.
+  /// Computes the costs at the state; a term behind its camera keeps its cost.
   void evaluate_costs(BundleState& state) const;
 
  private:
-  /// A term of a free camera: p, and gradient and Hessian of its cost by p.
+  /// Holds a term of a free camera: p, and gradient and Hessian of its cost by p.
   struct Link {
     Eigen::Vector3d point_in_camera = Eigen::Vector3d::Zero();
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
     Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
   };
   using LinkBlock = Eigen::Matrix<double, 6, 3>;
-  /// L below the diagonal, its inverse diagonal, and h; all zero for a point that stays.
+  /// Holds L below the diagonal, its inverse diagonal, and h; all zero for a point that is not moved.
   struct PointFactor {
     double l10 = 0, l20 = 0, l21 = 0;
     Eigen::Vector3d inverse_diagonal = Eigen::Vector3d::Zero();

@@ -8,7 +8,7 @@
 
 namespace cairn {
 
-/// One observation, ready for the equations.
+/// Holds one observation as the equations need it.
 struct BundleTerm {
   Eigen::Vector3d seen;               ///< u, v, d; 0 for a disparity that was not measured
   Eigen::Vector3d inverse_variances;  ///< 0 for a disparity that was not measured
@@ -19,18 +19,20 @@ struct BundleTerm {
   }
 };
 
+/// Converts an observation to a term.
 [[nodiscard]] inline BundleTerm make_term(const BundleObservation& observation) {
   const Observation& seen = observation.seen;
   return {{seen.u, seen.v, seen.has_disparity() ? seen.d : 0.0}, inverse_variances(seen), observation.camera};
 }
 
-/// Half the cost of one observation to second order in the point p in the camera, as iteratively reweighted
-/// Gauss-Newton takes it: gradient P^T W e and Hessian P^T W P, with e the residual, W the inverse variances
-/// times the kernel's weight, and P = Rig::projection_jacobian. Only five entries of P are not zero, and
-/// products with it are much of what a bundle's equations cost, so they are written out here.
+/// Expands half the cost of one observation to second order in the point p in the camera, as iteratively
+/// reweighted Gauss-Newton takes it: gradient P^T W e and Hessian P^T W P, with e the residual, W the inverse
+/// variances times the kernel's weight, and P = Rig::projection_jacobian. Only five entries of P are not
+/// zero, and products with it are a large part of the cost of a bundle's equations, so they are written out
+/// here.
 class TermExpansion {
  public:
-  /// The point is in front of the camera.
+  /// Expands at a point that must be in front of the camera.
   TermExpansion(const Rig& rig, const Eigen::Vector3d& point_in_camera, const BundleTerm& term,
                 RobustKernel kernel, double kernel_scale) {
     const double inverse_depth = 1.0 / point_in_camera.z();
@@ -55,7 +57,7 @@ class TermExpansion {
     return hessian;
   }
 
-  /// P M: for M = R the derivative by the point in the world.
+  /// Computes P M: for M = R the derivative by the point in the world.
   [[nodiscard]] Eigen::Matrix3d jacobian_times(const Eigen::Matrix3d& m) const {
     Eigen::Matrix3d product;
     product.row(0) = u_by_x_ * (m.row(0) - x_ * m.row(2));
@@ -63,11 +65,11 @@ class TermExpansion {
     product.row(2) = d_by_z_ * m.row(2);
     return product;
   }
-  /// W M.
+  /// Computes W M.
   [[nodiscard]] Eigen::Matrix3d weights_times(const Eigen::Matrix3d& m) const {
     return weights_.asDiagonal() * m;
   }
-  /// P^T M.
+  /// Computes P^T M.
   template <int kColumns>
   [[nodiscard]] Eigen::Matrix<double, 3, kColumns> transposed_times(
       const Eigen::Matrix<double, 3, kColumns>& m) const {
@@ -84,20 +86,20 @@ class TermExpansion {
   Eigen::Vector3d error_, weights_;  // e and the diagonal of W
 };
 
-/// Whether an information matrix of a point, by its trace and determinant, determines it: not where its
-/// smallest eigenvalue is about a billionth of its largest, which is a parallax of 3e-5 radians.
+/// Tells whether an information matrix of a point, given by its trace and determinant, determines the point:
+/// false if its smallest eigenvalue is about a billionth of its largest, which is a parallax of 3e-5 radians.
 [[nodiscard]] inline bool determines_point(double trace, double determinant) {
   constexpr double kSmallestShare = 1e-9;
   const double mean = trace / 3.0;
   return determinant > kSmallestShare * mean * mean * mean;
 }
 
-/// Information and gradient of a point in the world: V and g.
+/// Sums the information V and the gradient g of a point in the world.
 struct PointSums {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 
-  /// Adds one term, its camera with this rotation; returns P^T W P R.
+  /// Adds one term whose camera has this rotation; returns P^T W P R.
   Eigen::Matrix3d add(const TermExpansion& expansion, const Eigen::Matrix3d& rotation) {
     const Eigen::Matrix3d jacobian = expansion.jacobian_times(rotation);
     const Eigen::Matrix3d weighted = expansion.weights_times(jacobian);

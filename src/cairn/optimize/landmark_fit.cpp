@@ -95,7 +95,7 @@ class Descent {
     accept();
   }
 
-  /// Whether it did not raise the cost.
+  /// Tries a step; accepts it and returns true if it does not raise the cost.
   bool try_step(const Eigen::Vector3d& step) {
     constexpr double kRounding = 1e-12;  // relative error of the cost
     evaluate(kernels_.expand, state().point + step);
@@ -229,7 +229,7 @@ class LandmarkSolver::Work {
     }
   }
 
-  /// Whether all observations' errors at the result are below max_error.
+  /// Fits from `initial`. Returns whether the errors of all observations at the result are at most max_error.
   [[nodiscard]] bool minimise(const Eigen::Vector3d& initial, LandmarkFit& fit) {
     Descent descent(kernels_, options_, packed_, errors_);
     fit.status = descent.run(initial);

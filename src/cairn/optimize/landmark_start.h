@@ -5,27 +5,29 @@
 
 namespace cairn {
 
-/// Squared errors of all packed observations at a point, and room to sort them.
+/// Holds the squared errors of all packed observations at a point, and memory to sort them.
 struct ObservationErrors {
-  std::vector<double> of_pixels;  ///< (u, v) alone, in variances; slot by slot, whole blocks
-  std::vector<double> of_all;     ///< with the disparity
+  std::vector<double> of_pixels;  ///< of (u, v) alone, in variances; slot by slot, whole blocks
+  std::vector<double> of_all;     ///< of (u, v, d), in variances; slot by slot, whole blocks
   std::vector<double> sorted;
 
+  /// Enlarges the arrays to hold `blocks` blocks.
   void make_room(int blocks);
 };
 
-/// Initial values of a landmark that `packed` holds, relative to the packed observations' origin.
+/// Computes initial values of a landmark that `packed` holds, relative to the packed observations' origin.
 class LandmarkStart {
  public:
   LandmarkStart(const Rig& rig, std::span<const PlacedCamera> cameras,
                 std::span<const CameraObservation> observations, const PackedObservations& packed)
       : rig_(rig), cameras_(cameras), observations_(observations), packed_(packed) {}
 
-  /// By the observation with the surest disparity; without one, by two rays.
+  /// Back-projects the observation with the largest disparity in its standard deviations; without
+  /// disparities, intersects two rays.
   [[nodiscard]] Eigen::Vector3d quick() const;
-  /// Of the points that one observation and its disparity give, or two rays where it has none, the one with
-  /// the least median of the squared errors (Rousseeuw 1984): near the landmark while most observations are
-  /// right. Nothing is dropped yet.
+  /// Returns the candidate with the least median of the squared errors (Rousseeuw 1984), near the landmark as
+  /// long as most observations are right. Candidates are observations back-projected by their disparity, or
+  /// the intersection of two rays if they have none. No observation may have been dropped yet.
   [[nodiscard]] Eigen::Vector3d robust(const LandmarkKernels& kernels, ObservationErrors& errors) const;
 
  private:

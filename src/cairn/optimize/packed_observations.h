@@ -12,13 +12,13 @@
 
 namespace cairn {
 
-/// A landmark seen by camera number `camera`.
+/// Describes a landmark's observation by camera number `camera`.
 struct CameraObservation {
   std::int32_t camera = 0;
   Observation seen;
 };
 
-/// A camera as packing wants it.
+/// Holds the pose of a camera as packing needs it.
 struct PlacedCamera {
   Eigen::Matrix3d world_from_camera;  ///< rotation: its columns are the camera's axes
   Eigen::Vector3d centre_in_world;
@@ -27,22 +27,21 @@ struct PlacedCamera {
       : world_from_camera(pose.inverse().matrix3()), centre_in_world(pose.inverse().translation) {}
 };
 
-/// The observations of one landmark, packed for the kernels. Points are here relative to the centre of the
-/// first observation's camera, so that a world of thousands of kilometres costs no digits. Its memory is used
-/// again by the next landmark.
+/// Packs the observations of one landmark for the kernels. Points are relative to the centre of the first
+/// observation's camera, so that a world of thousands of kilometres costs no digits. The next landmark reuses
+/// the memory.
 class PackedObservations {
  public:
-  /// PreconditionError for a camera out of range or an observation that is not usable. The arguments outlive
-  /// what is done with the observations.
+  /// Packs `all`. Throws PreconditionError if a camera is out of range or an observation is not usable.
   void pack(const Rig& rig, std::span<const PlacedCamera> cameras, std::span<const CameraObservation> all);
 
-  /// Takes the observation in `slot` out; another one takes its slot.
+  /// Drops the observation in `slot`; the last one moves to this slot.
   void drop(int slot);
 
   [[nodiscard]] int count() const { return count_; }
   [[nodiscard]] int block_count() const { return (count_ + kObservationLanes - 1) / kObservationLanes; }
   [[nodiscard]] const ObservationBlock* blocks() const { return blocks_.data(); }
-  /// Which of all the observations is in `slot`, below count().
+  /// Returns the position, among all packed, of the observation in `slot`, which is below count().
   [[nodiscard]] std::int32_t observation(int slot) const {
     return observations_[static_cast<std::size_t>(slot)];
   }

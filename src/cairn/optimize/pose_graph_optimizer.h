@@ -11,49 +11,52 @@
 
 namespace cairn {
 
-/// Where the optimiser starts.
+/// Names the poses at which the optimiser starts.
 enum class PoseGraphStart {
-  given,    ///< at the poses in the graph
-  chordal,  ///< at relax_chordal: does not depend on the poses in the graph
-  best,     ///< at whichever of the two costs less
+  given,    ///< the poses in the graph
+  chordal,  ///< the result of relax_chordal, which does not depend on the poses in the graph
+  best,     ///< whichever of `given` and `chordal` costs less
 };
 
+/// Sets the kernel, the start and the convergence of optimize_pose_graph.
 struct PoseGraphOptions {
-  RobustKernel kernel = RobustKernel::none;  ///< of edges flagged robust
-  /// Standard deviations of a whole edge at which the kernel sets in; 3.5 lets 95 % of good edges through
+  RobustKernel kernel = RobustKernel::none;  ///< applied to edges flagged robust
+  /// Scale of the kernel in standard deviations of a whole edge; 3.5 leaves 95 % of good edges unweighted
   /// (the square root of chi-square's 95 % quantile at 6 degrees of freedom, 12.6).
   double robust_scale = 3.5;
-  /// Odometry that has drifted far leads plain least squares into a wrong minimum, and a relaxation that
-  /// takes wrong loops for right ones is worse than odometry: so try both.
+  /// Both starts are tried by default: odometry that has drifted far leads plain least squares into a wrong
+  /// minimum, and a relaxation with wrong loops is worse than odometry.
   PoseGraphStart start = PoseGraphStart::best;
-  int max_iterations = 100;  ///< of Levenberg-Marquardt; 5 to 30 are usual
-  /// Converged when a step lowers the cost by less than this share. Tight because iterations near a minimum
-  /// gain quadratically.
+  int max_iterations = 100;  ///< maximum number of Levenberg-Marquardt steps; 5 to 30 are usual
+  /// Relative decrease of the cost below which a step has converged. Tight, because steps near a minimum
+  /// converge quadratically.
   double relative_tolerance = 1e-9;
 
-  /// PreconditionError for a value out of range.
+  /// Throws PreconditionError if a value is out of range.
   void validate() const;
 };
 
+/// Describes the result of optimize_pose_graph.
 struct PoseGraphReport {
-  double chi2_before = 0;                             ///< of all edges, without kernel, at the poses given
-  double chi2_start = 0;                              ///< the same where the optimiser started
-  double chi2_after = 0;                              ///< the same at the result
+  double chi2_before = 0;  ///< of all edges, without kernel, at the poses given
+  double chi2_start = 0;   ///< of all edges, without kernel, at the optimiser's start
+  double chi2_after = 0;   ///< of all edges, without kernel, at the result
   PoseGraphStart started_at = PoseGraphStart::given;  ///< given or chordal
   int iterations = 0;                                 ///< steps tried, rejected ones included
-  bool converged = false;          ///< false: max_iterations, stopped by the user, or a failed factorisation
-  std::string termination;         ///< why it ended, in words
+  bool converged = false;   ///< false after max_iterations, a stop by the user, or a failed factorisation
+  std::string termination;  ///< reason for the end, in words
   std::vector<std::int64_t> held;  ///< ids of the vertices held constant, in the graph's order
-  int components = 0;              ///< connected parts of the graph
+  int components = 0;              ///< number of connected parts of the graph
   double seconds = 0;              ///< wall clock
 };
 
 /// Moves the vertices of `graph` to the minimum of sum_k rho_k(e_k^T information_k e_k), with the error of
-/// pose_graph_residual.h, by Levenberg-Marquardt over a sparse Cholesky factorisation. Vertices in
-/// `graph.fixed` are held, and in each connected part without one its first vertex: parts cannot be placed
-/// relative to each other. A vertex without edges stays where it is. `progress` (may be null) gets one update
-/// for each iteration, and may stop it: the best poses so far are kept.
-/// One thread, deterministic. PreconditionError for double ids and edges to unknown vertices.
+/// pose_graph_residual.h, by Levenberg-Marquardt over a sparse Cholesky factorisation. Holds the vertices in
+/// `graph.fixed` and, in each connected part without one, the first vertex, because parts cannot be placed
+/// relative to each other. A vertex without edges is not moved. `progress` (may be null) gets one update for
+/// each iteration and may stop it; the best poses so far are kept. One thread, deterministic. Throws
+/// PreconditionError if an option is out of range, an id occurs twice, an edge or a fixed id names an unknown
+/// vertex, or an edge joins a vertex to itself.
 PoseGraphReport optimize_pose_graph(PoseGraph& graph, const PoseGraphOptions& options = {},
                                     Progress* progress = nullptr);
 

@@ -8,27 +8,28 @@
 
 namespace cairn {
 
-/// Error of one edge as g2o defines it (EdgeSE3), in the order (translation, vector part of the quaternion):
+/// Computes the error of one edge as g2o defines it (EdgeSE3), in the order (translation, vector part of the
+/// quaternion):
 ///
 ///     E = a_from_b^-1 * world_from_a^-1 * world_from_b,   e = (t_E, vec(q_E)) with w(q_E) >= 0.
 ///
-/// In metres and in sines of half angles, in the frame of the measured b.
+/// Units are metres and sines of half angles, in the frame of the measured b.
 [[nodiscard]] Vector6d pose_graph_error(const Rigid3& world_from_a, const Rigid3& world_from_b,
                                         const Rigid3& a_from_b);
 
-/// The step by which the optimiser moves a vertex, xi = (w, v): exp(w) * R and t + v. The rotation is
-/// perturbed on the left, in the world; the translation is not turned with it (unlike perturb_left), so that
-/// the problem's conditioning does not depend on how far from the world's origin the graph lies.
+/// Moves a vertex by the optimiser's step xi = (w, v): exp(w) * R and t + v. The rotation is perturbed on the
+/// left, in the world; the translation is not rotated with it (unlike perturb_left), so that the problem's
+/// conditioning does not depend on the distance of the graph from the world's origin.
 [[nodiscard]] Rigid3 perturb_vertex(const Vector6d& xi, const Rigid3& world_from_vertex);
 
-/// Derivatives of pose_graph_error by perturb_vertex of either vertex at xi = 0: rows as the error, columns
-/// as xi.
+/// Holds the derivatives of pose_graph_error by perturb_vertex of either vertex at xi = 0: rows as the error,
+/// columns as xi.
 struct PoseGraphJacobians {
   Matrix6d by_a;
   Matrix6d by_b;
 };
 
-/// With M = (R_a * R_ab)^T, d = t_b - t_a and q_E = (s, u):
+/// Computes the derivatives: with M = (R_a * R_ab)^T, d = t_b - t_a and q_E = (s, u),
 ///
 ///     d t_E / d w_a =  M [d]x              d t_E / d v_a = -M
 ///     d t_E / d w_b =  0                   d t_E / d v_b =  M
@@ -38,10 +39,10 @@ struct PoseGraphJacobians {
 [[nodiscard]] PoseGraphJacobians pose_graph_jacobians(const Rigid3& world_from_a, const Rigid3& world_from_b,
                                                       const Rigid3& a_from_b);
 
-/// e^T * information * e of each edge, without robust kernel, in order. PreconditionError for an edge to an
-/// unknown vertex.
+/// Computes e^T * information * e of each edge, without robust kernel, in order. Throws PreconditionError if
+/// an edge names an unknown vertex.
 [[nodiscard]] std::vector<double> edge_chi2(const PoseGraph& graph);
-/// The sum of edge_chi2, added up in order.
+/// Computes the sum of edge_chi2, added up in order.
 [[nodiscard]] double chi2(const PoseGraph& graph);
 
 }  // namespace cairn

@@ -7,19 +7,20 @@
 
 namespace cairn {
 
-/// What does not change while a pose graph is optimised.
+/// Describes what does not change during the optimisation of a pose graph.
 struct PoseGraphStructure {
+  /// Holds the two vertices of an edge.
   struct EdgeEnds {
     std::size_t a, b;  ///< positions in graph.vertices
   };
   std::vector<EdgeEnds> ends;  ///< for each edge, in order
-  std::vector<bool> held;      ///< for each vertex: keeps its pose
-  int components = 0;          ///< connected parts of the graph
+  std::vector<bool> held;      ///< one for each vertex: true if its pose is kept
+  int components = 0;          ///< number of connected parts of the graph
 };
 
-/// Holds the vertices in `graph.fixed`, and in each connected part without one its first vertex: parts cannot
-/// be placed relative to each other. PreconditionError for double ids, an edge or a fixed id that names an
-/// unknown vertex, an edge from a vertex to itself.
+/// Finds the structure. Held are the vertices in `graph.fixed` and, in each connected part without one, the
+/// first vertex, because parts cannot be placed relative to each other. Throws PreconditionError if an id
+/// occurs twice, an edge or a fixed id names an unknown vertex, or an edge joins a vertex to itself.
 [[nodiscard]] PoseGraphStructure analyse_pose_graph(const PoseGraph& graph);
 
 }  // namespace cairn

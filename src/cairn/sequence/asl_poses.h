@@ -7,8 +7,8 @@
 
 namespace cairn {
 
-/// The stamp in a line's first field, whole nanoseconds; InputError unless it comes after `before`, where
-/// that is given.
+/// Parses the stamp in a line's first field, whole nanoseconds. Throws InputError unless it comes after
+/// `before`, if that is given.
 [[nodiscard]] std::int64_t parse_asl_stamp(const TextFile& file, const TextLine& line,
                                            const std::int64_t* before);
 

@@ -8,12 +8,12 @@
 
 namespace cairn {
 
-/// What a `sensor.yaml` of the ASL layout says of a camera (Burri et al. 2016, "The EuRoC micro aerial
-/// vehicle datasets"): camera_model pinhole with distortion_model radial-tangential, equidistant or none.
-/// InputError with the line for other models and for whatever is missing or no number.
+/// Reads the camera of a `sensor.yaml` of the ASL layout (Burri et al. 2016, "The EuRoC micro aerial vehicle
+/// datasets"): camera_model pinhole with distortion_model radial-tangential, equidistant or none. Throws
+/// InputError with the line for other models and if a value is missing or not a number.
 [[nodiscard]] Camera read_asl_camera(const std::filesystem::path& sensor_yaml);
 
-/// T_BS, where a sensor sits on the body; InputError where it is no rigid transform.
+/// Reads T_BS, the pose of a sensor on the body. Throws InputError if it is not a rigid transform.
 [[nodiscard]] Rigid3 read_body_from_sensor(const std::filesystem::path& sensor_yaml);
 
 }  // namespace cairn

@@ -8,7 +8,7 @@
 
 namespace cairn {
 
-/// Pairs of positions (i in a, j in b) whose stamps differ by at most `max_gap_ns`, closest pairs first, each
+/// Pairs positions (i in a, j in b) whose stamps differ by at most `max_gap_ns`, closest pairs first, each
 /// stamp used once (Sturm et al. 2012, the TUM benchmark's associate.py); ties go to the earlier stamps. Both
 /// inputs increase strictly; so do both sides of the result. O(n log n) for gaps shorter than the spacing of
 /// the stamps.

@@ -13,33 +13,34 @@
 
 namespace cairn {
 
-/// How depth is stored, and by which camera it was seen.
+/// Describes how depth is stored and which camera measures it.
 struct DepthCalibration {
   double scale = 0;  ///< units per metre
   std::vector<std::uint16_t> invalid{0};
-  std::optional<Camera> camera;  ///< only where depth is not registered to colour
+  std::optional<Camera> camera;  ///< nullopt if depth is registered to colour
   Rigid3 camera_from_depth;
 };
 
-/// A stereo pair as it was recorded, and what FrameLoader makes of it.
+/// Describes a stereo pair as it was recorded, and its rectification by FrameLoader.
 struct RawStereo {
   StereoPair pair;
-  StereoRectification rectification;  ///< of status ok
+  StereoRectification rectification;  ///< its status is ok
 };
 
+/// Names the camera that the given poses belong to.
 enum class PosesAre { camera, depth };
 
-/// What camera.yaml says (docs: README, "Calibration").
+/// Holds the contents of camera.yaml (docs: README, "Calibration").
 struct Calibration {
-  Camera camera;                          ///< colour or left camera, as FrameLoader's images are: rectified
-  std::optional<double> baseline;         ///< stereo, after rectification, metres
-  std::optional<RawStereo> raw_stereo;    ///< where the images on disk are not rectified
+  Camera camera;                   ///< of FrameLoader's images: the colour camera, or the rectified left one
+  std::optional<double> baseline;  ///< stereo, after rectification, metres
+  std::optional<RawStereo> raw_stereo;    ///< set if the images on disk are not rectified
   std::optional<DepthCalibration> depth;  ///< RGB-D
-  PosesAre poses_are = PosesAre::camera;  ///< which camera the given poses belong to
-  /// Where the camera sits on the body whose poses are given (lever arm and boresight), in the body's axes;
-  /// of a raw stereo pair the left camera as it was recorded.
+  PosesAre poses_are = PosesAre::camera;  ///< the camera that the given poses belong to
+  /// Pose of the camera on the body whose poses are given (lever arm and boresight), in the body's axes; of a
+  /// raw stereo pair, that of the left camera as it was recorded.
   std::optional<Rigid3> body_from_camera;
-  /// Frames a second of a sequence without time stamps; nothing if nobody states it.
+  /// Frames per second of a sequence without time stamps; nullopt if it is not stated.
   std::optional<double> rate_hz;
 
   /// Returns the stated rate, or else 30 Hz, which then only spaces the stamps.
@@ -49,24 +50,27 @@ struct Calibration {
   }
 };
 
-/// Where something of a calibration stands, for messages; line 0 where it means nothing.
+/// Names the location of an entry of a calibration, for messages; line 0 if it has none.
 struct SourceLocation {
   std::string file;
   int line = 0;
 };
 
-/// Rectifies a pair: sets camera, baseline and raw_stereo. InputError that names `place` for cameras that
-/// make no pair: in one place, right and left exchanged, without a view in common.
+/// Rectifies a pair: sets camera, baseline and raw_stereo. Throws InputError that names `place` if the
+/// cameras make no pair: they coincide, right and left are exchanged, or they share no view.
 void set_raw_stereo(const StereoPair& pair, const SourceLocation& place, Calibration& calibration);
 
-/// Where the camera whose images FrameLoader gives sits on a body that has the recorded one at
-/// `body_from_camera`: rectification turns it.
+/// Returns the pose, on a body, of the camera whose images FrameLoader gives, if the recorded camera has the
+/// pose `body_from_camera`: rectification rotates it.
 [[nodiscard]] Rigid3 body_from_loaded_camera(const Calibration& calibration, const Rigid3& body_from_camera);
 
-/// InputError with the line for an unknown key, a missing one, fx = 0, a scale of 0, a wrong type.
+/// Reads a camera.yaml. Throws InputError with the line for an unknown or missing key, fx = 0, a scale of 0,
+/// or a wrong type.
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& path);
+/// Formats a calibration as a camera.yaml.
 [[nodiscard]] std::string format_calibration(const Calibration& calibration);
-/// tum-fr1, tum-fr2, tum-fr3: the cameras of the TUM RGB-D benchmark, depth 5000 units per metre.
+/// Returns the calibration of a camera of the TUM RGB-D benchmark (tum-fr1, tum-fr2 or tum-fr3; depth 5000
+/// units per metre), or nullopt for another name.
 [[nodiscard]] std::optional<Calibration> known_calibration(const std::string& name);
 
 }  // namespace cairn

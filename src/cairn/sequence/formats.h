@@ -13,52 +13,61 @@
 
 namespace cairn {
 
-/// One pair of functions per format. `is_...` looks at names only; `list_...` fills frames, truth (of the
-/// camera that the format's poses belong to, before rectification), report and, unless the user gave one, the
-/// format's own calibration if it carries one.
+/// Tells whether a folder has the TUM layout. Each format has a pair of functions: `is_...` looks at names
+/// only; `list_...` fills frames, truth (of the camera that the format's poses belong to, before
+/// rectification), report and, unless the user gave one, the format's own calibration if it has one.
 [[nodiscard]] bool is_tum(const std::filesystem::path& folder);
+/// Lists the frames of a TUM sequence.
 void list_tum(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
+/// Tells whether a folder has the 7-Scenes layout.
 [[nodiscard]] bool is_seven_scenes(const std::filesystem::path& folder);
+/// Lists the frames of a 7-Scenes sequence.
 void list_seven_scenes(const std::filesystem::path& folder, Sequence& sequence);
 
-/// Grey stereo pairs of the KITTI odometry benchmark; carries its own calibration.
+/// Tells whether a folder has the layout of the KITTI odometry benchmark: grey stereo pairs, with its own
+/// calibration.
 [[nodiscard]] bool is_kitti(const std::filesystem::path& folder);
+/// Lists the stereo pairs of a KITTI sequence.
 void list_kitti(const std::filesystem::path& folder, Sequence& sequence);
 
-/// Raw stereo pairs in the ASL layout; carries its own calibration.
+/// Tells whether a folder has the ASL layout: raw stereo pairs, with its own calibration.
 [[nodiscard]] bool is_euroc(const std::filesystem::path& folder);
+/// Lists the stereo pairs of an ASL sequence.
 void list_euroc(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
-/// Files named by their number in two folders, named by the options or by habit (rgb_index and dep_index, rgb
-/// and depth, ...); poses in trajectory.txt, by number.
+/// Tells whether a folder holds files named by their number in two folders, given by the options or usual
+/// (rgb_index and dep_index, rgb and depth, ...); poses are in trajectory.txt, by number.
 [[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);
+/// Lists the frames of numbered files.
 void list_numbered(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
-/// What lies in a folder in the natural order of the names (2.png before 10.png), hidden files left out.
+/// Lists the files of a folder in the natural order of their names (2.png before 10.png), without hidden
+/// ones.
 [[nodiscard]] std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder);
-/// By its extension: png, jpg, jpeg, pgm, ppm.
+/// Tells whether the extension is one of an image: png, jpg, jpeg, pgm, ppm.
 [[nodiscard]] bool is_image_name(const std::filesystem::path& file);
-/// The size of a camera's images, of which some may be missing, broken or of another size: that of the first
-/// two that agree; where no two do, that of the first that can be read. InputError where none can.
+/// Returns the size of a camera's images, of which some may be missing, broken or of another size: that of
+/// the first two that agree, else that of the first that can be read. Throws InputError if none can be read.
 [[nodiscard]] ImageSize size_of_images(std::span<const std::filesystem::path> images);
-/// Digits only; nothing otherwise.
+/// Parses a number that consists of digits only; returns nullopt otherwise.
 [[nodiscard]] std::optional<std::int64_t> parse_frame_number(std::string_view text);
-/// Stamp of file number `number` where the format has no time: number / rate_hz. InputError where that is
-/// more than an int64 of nanoseconds holds.
+/// Returns the stamp of file number `number` of a format without time, number / rate_hz, nanoseconds. Throws
+/// InputError if an int64 cannot hold it.
 [[nodiscard]] std::int64_t stamp_of_number(std::int64_t number, double rate_hz);
 
-/// Whether the frames' stamps are those of a clock. Elsewhere frames and the sequence's own poses have the
-/// same stamps, made from numbers.
+/// Tells whether the frames' stamps are those of a clock. Otherwise frames and the sequence's own poses have
+/// the same stamps, made from numbers.
 [[nodiscard]] bool has_clock(const Sequence& sequence);
 
 /// Reads the true poses of a sequence, of any format with stamps (docs/poses.md), as the file states them.
-/// Warnings go to the report. InputError for poses without stamps, and for those of a body unless
+/// Warnings go to the report. Throws InputError for poses without stamps, and for those of a body unless
 /// `is_of_body`.
 [[nodiscard]] Trajectory read_truth(const std::filesystem::path& path, bool is_of_body,
                                     SequenceReport& report);
 
-/// A TUM trajectory file whose first column holds whole numbers only: frame numbers, not seconds.
+/// Tells whether the first column of a TUM trajectory file holds whole numbers only: frame numbers, not
+/// seconds.
 [[nodiscard]] bool has_frame_numbers(const std::filesystem::path& path);
 
 }  // namespace cairn

@@ -79,7 +79,7 @@ double parse_field(const TextFile& file, const TextLine& line, const PacketField
             "Check the order of the values: lat lon alt roll pitch yaw ... (30).");
 }
 
-/// Whether the position is NaN, or 0 north and 0 east.
+/// Tells whether the position is NaN, or 0 north and 0 east.
 bool lacks_position(const TextFile& file, const TextLine& line) {
   for (std::size_t i = 0; i < 3; ++i)
     if (line.fields[i] == "nan" || line.fields[i] == "NaN" || line.fields[i] == "-nan") return true;

@@ -6,7 +6,7 @@
 
 namespace cairn {
 
-/// Holds what people read of one parameter.
+/// Describes one parameter for people.
 struct ParameterRow {
   std::string name;      ///< "tracking.map_radius_px"
   std::string value;     ///< present value; empty: none

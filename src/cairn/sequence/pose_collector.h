@@ -9,14 +9,15 @@
 
 namespace cairn {
 
-/// Collects the poses of a file. A stamp that comes again is taken once: a second pose that equals the first
-/// is left out in silence, another one with a warning.
+/// Collects the poses of a file. Each stamp is taken once: a second pose that equals the first is left out
+/// silently, a different one with a warning.
 class PoseCollector {
  public:
-  /// `recorded` says what its keys are, and must live as long.
+  /// Appends to `recorded`, whose key must be set and which must outlive the collector.
   explicit PoseCollector(RecordedPoses& recorded) : recorded_(recorded) {}
 
-  /// InputError that names the line unless the pose's key is at or above the last one's.
+  /// Appends a pose. Throws InputError that names the line unless the pose's key is at or above the last
+  /// one's.
   void add(const TextFile& file, const TextLine& line, const RecordedPose& pose);
   /// Counts a row that states no position, as receivers write before they have a fix.
   void leave_out(const TextFile& file, const TextLine& line, std::int64_t key);
@@ -25,7 +26,7 @@ class PoseCollector {
   void finish();
 
  private:
-  /// Lines of one kind.
+  /// Counts the lines with one oddity.
   struct Oddities {
     int count = 0;
     std::string first;   ///< "file:line" of the first

@@ -12,6 +12,7 @@
 
 namespace cairn {
 
+/// Names the columns of a table of poses.
 enum class TableColumn : std::uint8_t {
   time,
   frame,
@@ -40,7 +41,7 @@ enum class TableColumn : std::uint8_t {
 };
 inline constexpr std::size_t kTableColumns = 24;
 
-/// Three columns that go together.
+/// Three columns that belong together.
 using ColumnTriple = std::array<TableColumn, 3>;
 inline constexpr ColumnTriple kGeodetic{TableColumn::latitude, TableColumn::longitude, TableColumn::height};
 inline constexpr ColumnTriple kLocal{TableColumn::east, TableColumn::north, TableColumn::up};
@@ -53,7 +54,9 @@ inline constexpr ColumnTriple kPosition{TableColumn::x, TableColumn::y, TableCol
 inline constexpr std::array<TableColumn, 4> kQuaternion{TableColumn::qx, TableColumn::qy, TableColumn::qz,
                                                         TableColumn::qw};
 
+/// Names the quantity of a column.
 enum class Quantity : std::uint8_t { time, count, length, angle, none };
+/// Names the unit of a column.
 enum class ColumnUnit : std::uint8_t {
   none,  ///< the name states none
   second,
@@ -65,33 +68,36 @@ enum class ColumnUnit : std::uint8_t {
   radian
 };
 
-/// The name that messages and docs/poses.md use.
+/// Returns the name that messages and docs/poses.md use.
 [[nodiscard]] std::string_view to_string(TableColumn column);
+/// Returns the quantity of a column.
 [[nodiscard]] Quantity quantity_of(TableColumn column);
-/// Returns nullopt for what is no unit of this quantity. Without text: the unit that docs/poses.md promises,
-/// of a time none.
+/// Returns the unit that a text names, or nullopt if it is not one of this quantity. Without text: the unit
+/// that docs/poses.md promises, of a time none.
 [[nodiscard]] std::optional<ColumnUnit> find_unit(std::string_view text, Quantity quantity);
-/// The units of a quantity, for messages: "deg or rad".
+/// Lists the units of a quantity, for messages: "deg or rad".
 [[nodiscard]] std::string unit_choices(Quantity quantity);
 
-/// A column's name without its unit, in lower case with '_' for blanks and other separators.
+/// Holds a column's name without its unit, in lower case with '_' for blanks and other separators.
 struct ColumnName {
   std::string base, unit;
 };
-/// "Latitude (deg)", "latitude [deg]" and "latitude_deg" are one name.
+/// Splits a name and its unit: "Latitude (deg)", "latitude [deg]" and "latitude_deg" are one name.
 [[nodiscard]] ColumnName split_name(std::string_view written);
 
+/// Describes the meaning of a column's name.
 struct ColumnMeaning {
   TableColumn column = TableColumn::time;
-  double factor = 1;  ///< of the values: -1 for "down"
+  double factor = 1;  ///< factor of the values: -1 for "down"
 };
-/// Returns nullopt for a name that means nothing here. `base` is that of split_name.
+/// Returns the meaning of a name, or nullopt if it has none. `base` is that of split_name.
 [[nodiscard]] std::optional<ColumnMeaning> find_column(const std::string& base);
 
-/// A quaternion's component that is numbered (q0, quat_3), so that it stays open which one is the scalar.
+/// Tells whether the name is that of a numbered component of a quaternion (q0, quat_3), so that it is unknown
+/// which one is the scalar.
 [[nodiscard]] bool is_numbered_quaternion(const std::string& base);
 
-/// The names of columns of a table in angles, for "did you mean".
+/// Returns the names of the columns of a table with angles, for "did you mean".
 [[nodiscard]] std::vector<std::string> table_names();
 
 }  // namespace cairn

@@ -160,8 +160,8 @@ ColumnUnit unit_of(const fs::path& path, const TableHeader& header, std::size_t 
        fmt::format("'{}'", header.names[field]), "Convert the column, or correct its name.");
 }
 
-/// Whether a name that is not known may be a known one, misspelt, or a standard deviation in other words: to
-/// leave it out would change the result without a word.
+/// Tells whether an unknown name may be a misspelt known one, or a standard deviation in other words: to
+/// leave it out would silently change the result.
 bool may_be_mistaken(const std::string& base, const std::string& nearest) {
   constexpr std::array<std::string_view, 9> kDeviations{"std", "sd",  "stddev", "sigma",   "rms",
                                                         "acc", "var", "cov",    "accuracy"};

@@ -13,20 +13,22 @@
 
 namespace cairn {
 
+/// Describes a column of a file: its position, unit and factor.
 struct ColumnSource {
   std::size_t field = 0;
   ColumnUnit unit = ColumnUnit::none;
-  double factor = 1;  ///< of the values
+  double factor = 1;  ///< factor of the values
 };
 
-/// The last line before the poses that names columns, perhaps behind a '#'.
+/// Describes the last line before the poses that names columns, perhaps behind a '#'.
 struct TableHeader {
   int line = 0;
   std::vector<std::string> names;           ///< as written
-  Separator separator = Separator::blanks;  ///< of the names; the rows may have another one
-  bool open_ended = false;                  ///< "..." stands behind the names
+  Separator separator = Separator::blanks;  ///< between the names; the rows may have another one
+  bool open_ended = false;                  ///< "..." follows the names
   std::array<std::optional<ColumnSource>, kTableColumns> places;  ///< set by check_table_header
 
+  /// Returns the source of a column, nullopt if the table lacks it.
   [[nodiscard]] const std::optional<ColumnSource>& place(TableColumn column) const {
     return places.at(static_cast<std::size_t>(column));
   }
@@ -34,21 +36,21 @@ struct TableHeader {
   [[nodiscard]] bool has(const ColumnTriple& triple) const { return has(triple[0]); }
 };
 
-/// Returns nullopt if no line before the first row of numbers names columns. A line without '#' that has
-/// commas names columns even if none of the names is known, unless the rows have more values.
+/// Finds the header. Returns nullopt if no line before the first row of numbers names columns. A line without
+/// '#' that has commas names columns even if none of the names is known, unless the rows have more values.
 [[nodiscard]] std::optional<TableHeader> find_table_header(const std::filesystem::path& path);
 
-/// Whether the names are of poses with quaternions, by whatever names, complete or not, or of positions
+/// Tells whether the names are of poses with quaternions, by whatever names, complete or not, or of positions
 /// alone.
 [[nodiscard]] bool names_quaternions(const TableHeader& header);
 
-/// Finds the columns of a table with angles: a time or a frame, a place, the angles. InputError if something
-/// is missing, there twice, of an unknown unit, or if an unknown name may be a misspelt one.
+/// Finds the columns of a table with angles: a time or a frame, a position, the angles. Throws InputError if
+/// a column is missing, occurs twice or has an unknown unit, or if an unknown name may be a misspelt one.
 void check_table_header(const std::filesystem::path& path, TableHeader& header);
 
-/// Finds the columns of a table with quaternions: a time or a frame, x, y, z, qx, qy, qz, qw. InputError if
-/// something is missing, there twice or of an unknown unit, or if the quaternion's components are numbered.
-/// Other columns are left out.
+/// Finds the columns of a table with quaternions: a time or a frame, x, y, z, qx, qy, qz, qw. Leaves out
+/// other columns. Throws InputError if a column is missing, occurs twice or has an unknown unit, or if the
+/// quaternion's components are numbered.
 void check_quaternion_header(const std::filesystem::path& path, TableHeader& header);
 
 }  // namespace cairn

@@ -17,22 +17,25 @@
 
 namespace cairn {
 
-/// Of what the poses are: of the camera whose images FrameLoader gives, or of a body with these axes; or not
-/// stated: of the body if the calibration says where the camera sits on one, else of the camera.
+/// Names the subject of poses: the camera whose images FrameLoader gives, or a body with these axes; or not
+/// stated: the body if the calibration has a camera on one, else the camera.
 enum class PoseSubject { camera, body_forward_left_up, body_forward_right_down, body_of_sensor, not_stated };
 
+/// Holds one pose as a file states it.
 struct RecordedPose {
   std::int64_t key = 0;  ///< nanoseconds, number of a frame, or position of a frame in the recording
-  /// Metres in the world; of geodetic poses latitude and longitude (degrees), height above the ellipsoid
-  /// (metres).
+  /// Position, metres in the world; of geodetic poses latitude and longitude (degrees), height above the
+  /// ellipsoid (metres).
   Eigen::Vector3d place = Eigen::Vector3d::Zero();
-  /// world_from_subject; of geodetic poses the world is east, north, up at the place itself.
+  /// world_from_subject; of geodetic poses the world is east, north, up at the position itself.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  /// Covariances of the place (square metres) and of a small rotation (square radians) about the same axes.
+  /// Covariances of the position (square metres) and of a small rotation (square radians) about the same
+  /// axes.
   Eigen::Matrix3d place_covariance = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d rotation_covariance = Eigen::Matrix3d::Zero();
 };
 
+/// Holds the poses of a file or a folder.
 struct RecordedPoses {
   std::filesystem::path source;  ///< for messages
   std::string format;            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table"
@@ -41,33 +44,35 @@ struct RecordedPoses {
   bool geodetic = false;
   bool has_uncertainty = false;
   std::vector<RecordedPose> poses;  ///< keys increase strictly; at least one
-  /// Of the first row, be it one that was left out as the receiver had no fix yet.
+  /// Key of the first row, even if it was left out because the receiver had no fix yet.
   std::optional<std::int64_t> first_key;
   std::vector<std::string> warnings;  ///< what a person should know, a sentence each
 };
 
-/// Finds out the format of a file or a folder by its content. A TUM file or a table may have numbers of
-/// frames instead of stamps only where `may_have_numbers`. InputError for whatever is wrong.
+/// Reads the poses of a file or a folder, whose format it recognises by the content. A TUM file or a table
+/// may have numbers of frames instead of stamps only if `may_have_numbers`. Throws InputError for any defect.
 [[nodiscard]] RecordedPoses read_recorded_poses(const std::filesystem::path& path, bool may_have_numbers);
 
+/// Converts a trajectory of the camera.
 [[nodiscard]] RecordedPoses poses_of_trajectory(const Trajectory& trajectory);
 
-/// Whether a folder holds OXTS packets: data/ and timestamps.txt.
+/// Tells whether a folder holds OXTS packets: data/ and timestamps.txt.
 [[nodiscard]] bool is_oxts(const std::filesystem::path& folder);
-/// Packets of an OXTS inertial navigation system as KITTI has them (Geiger et al. 2013, "Vision meets
-/// robotics: the KITTI dataset"): data/NNNNNNNNNN.txt, each of 30 values, and timestamps.txt.
+/// Reads the packets of an OXTS inertial navigation system as KITTI has them (Geiger et al. 2013, "Vision
+/// meets robotics: the KITTI dataset"): data/NNNNNNNNNN.txt, each of 30 values, and timestamps.txt.
 [[nodiscard]] RecordedPoses read_oxts(const std::filesystem::path& folder);
 
-/// Poses of a table whose columns are named and hold angles. `header` is that of find_table_header.
+/// Reads a table with angles whose columns are named. `header` is that of find_table_header.
 [[nodiscard]] RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader header);
-/// Poses with quaternions in named columns, in any order. Between blanks whole numbers of an unstated unit
-/// belong to frames where `may_have_numbers`.
+/// Reads a table with quaternions in named columns, in any order. Between blanks, whole numbers of an
+/// unstated unit belong to frames if `may_have_numbers`.
 [[nodiscard]] RecordedPoses read_quaternion_table(const std::filesystem::path& path, TableHeader header,
                                                   bool may_have_numbers);
-/// Poses in EuRoC's order of columns, `stamp [ns], px, py, pz, qw, qx, qy, qz, ...`, which no line names.
+/// Reads poses in EuRoC's order of columns, `stamp [ns], px, py, pz, qw, qx, qy, qz, ...`, which no line
+/// names.
 [[nodiscard]] RecordedPoses read_unnamed_asl_poses(const std::filesystem::path& path);
 
-/// Independent errors: the squares on the diagonal.
+/// Returns the covariance of independent errors: the squares on the diagonal.
 [[nodiscard]] Eigen::Matrix3d covariance_of(const Eigen::Vector3d& standard_deviations);
 
 }  // namespace cairn

@@ -17,92 +17,97 @@
 
 namespace cairn {
 
-/// Where one frame's images lie. Paths that the format does not have are empty.
+/// Locates the images of one frame. Paths that the format does not have are empty.
 struct FrameFiles {
   std::int64_t stamp_ns = 0;
-  std::int64_t number = 0;  ///< the number in the file names, or the position where there is none
+  std::int64_t number = 0;  ///< in the file names; the position if there is none
   std::filesystem::path color;
   std::filesystem::path depth;
   std::filesystem::path right;
   std::int64_t position = 0;  ///< in the recording, before frames were chosen
 };
 
-/// How the frames were found, for `cairn info` and warnings.
+/// Describes how the frames were found, for `cairn info` and warnings.
 struct SequenceReport {
-  std::string
-      associated_by;  ///< how images found their partners: "time, nearest stamp", a file; empty: by name
+  /// How images found their partners: "time, nearest stamp", a file; empty: by name.
+  std::string associated_by;
   std::int64_t color_images = 0;  ///< colour or left
   std::int64_t depth_images = 0;
   std::int64_t right_images = 0;
-  std::int64_t associated = 0;  ///< colour images that got a depth image, left ones that got a right one
+  std::int64_t associated = 0;  ///< colour images that got a depth image, or left ones that got a right one
   double max_stamp_gap_s = 0;   ///< largest difference of the stamps of a pair
-  std::vector<std::string> warnings;  ///< what a person should know of its poses, a sentence each
+  std::vector<std::string> warnings;  ///< warnings about its poses, a sentence each
 };
 
-/// A recording on disk: which images, when, seen by which cameras; the images are decoded by FrameLoader.
+/// Describes a recording on disk: images, times and cameras. FrameLoader decodes the images.
 struct Sequence {
   std::filesystem::path folder;
   std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI", "EuRoC"
   Calibration calibration;
-  std::string calibration_source;  ///< where the calibration comes from, for people
+  std::string calibration_source;  ///< source of the calibration, for people
   std::vector<FrameFiles> frames;  ///< stamps strictly increasing
-  /// Whether the stamps are times: from lists, or file numbers over a rate that the calibration states or the
-  /// format implies (7-Scenes is a video at 30 Hz). False: they only keep the frames apart, and nothing is
+  /// True if the stamps are times: from lists, or file numbers over a rate that the calibration states or the
+  /// format implies (7-Scenes is a video at 30 Hz). False if they only keep the frames apart; then nothing is
   /// known about the time between two of them.
   bool has_times = true;
   std::optional<std::int64_t> first_stamp_ns;  ///< of the recording, before frames were chosen
   std::int64_t listed = 0;                     ///< frames of the recording, before they were chosen
-  /// world_from_camera of the colour (rectified left) camera, where the format carries it.
+  /// world_from_camera of the colour (rectified left) camera, if the format has it.
   std::optional<Trajectory> truth;
   SequenceReport report;
 };
 
-/// Parts of a calibration as parameter files give them (camera.fx, camera.scale ...).
+/// Holds parts of a calibration that parameter files give (camera.fx, camera.scale ...).
 struct CameraParameters {
   std::optional<double> fx, fy, cx, cy;  ///< pixels
   std::optional<double> scale;           ///< depth, units per metre
 };
 
+/// Sets how a sequence is read and which of its frames are used.
 struct SequenceOptions {
   std::string camera;  ///< path of a camera.yaml, or tum-fr1|tum-fr2|tum-fr3; empty: the sequence's own
-  CameraParameters camera_parameters;  ///< go before what the calibration says
-  std::string rgb_dir, rgb_extension;  ///< numbered files, where given
+  CameraParameters camera_parameters;  ///< take precedence over the calibration
+  std::string rgb_dir, rgb_extension;  ///< of numbered files; empty: the usual ones
   std::string depth_dir, depth_extension;
   std::optional<std::int64_t> start_index, end_index;  ///< file numbers, inclusive
   double max_stamp_gap_s = 0.02;  ///< TUM, EuRoC: largest difference of an associated pair (as the TUM tools)
-  std::optional<FrameRange> frames;   ///< only these
-  std::optional<FrameRange> without;  ///< not these
+  std::optional<FrameRange> frames;   ///< frames to use; nullopt: all
+  std::optional<FrameRange> without;  ///< frames to leave out; nullopt: none
 };
 
 /// Visits the parameters by which a sequence is read: camera.*, the folders and numbers of its files.
 void visit(SequenceOptions& options, ParameterVisitor& visitor);
 
-/// Finds out the format and lists the frames. InputError for whatever is wrong.
+/// Recognises the format and lists the frames. Throws InputError for any defect.
 [[nodiscard]] Sequence open_sequence(const std::filesystem::path& folder,
                                      const SequenceOptions& options = {});
 
-/// One decoded frame.
+/// Holds one decoded frame.
 struct Frame {
   FrameId id;
   std::int64_t stamp_ns = 0;
   GrayImage gray;
-  DepthImage depth;  ///< registered to the colour camera, metres; empty where the sequence has none
-  GrayImage right;   ///< of a stereo pair; empty where the sequence has none
+  DepthImage depth;  ///< registered to the colour camera, metres; empty if the sequence has none
+  GrayImage right;   ///< of a stereo pair; empty if the sequence has none
 };
 
-/// Decodes frames of one sequence, which must live as long; safe to call from several threads. Raw stereo
-/// pairs come rectified: what is loaded fits Calibration::camera.
+/// Decodes the frames of one sequence, which must outlive it; safe to call from several threads. Raw stereo
+/// pairs are rectified: what is loaded fits Calibration::camera.
 class FrameLoader {
  public:
   explicit FrameLoader(const Sequence& sequence);
   explicit FrameLoader(const Sequence&&) = delete;
   ~FrameLoader();
-  /// InputError for an image that cannot be decoded, or whose size is not the calibration's.
+  /// Loads a frame. Throws InputError if an image cannot be decoded or its size is not the calibration's.
   [[nodiscard]] Frame load(FrameId id) const;
-  /// InputError like load, but decodes nothing: only as far as the beginning and the end of each file tell.
+  /// Checks the images of a frame without decoding them: only the beginning and the end of each file. Throws
+  /// InputError as `load` does.
   void probe(FrameId id) const;
+  /// Loads the colour or left image. Throws InputError as `load` does.
   [[nodiscard]] RgbImage load_color(FrameId id) const;
+  /// Loads the depth image, empty if the frame has none. Throws InputError as `load` does.
   [[nodiscard]] DepthImage load_depth(FrameId id) const;
+  /// Loads the right image, empty if the frame has none. Throws InputError as `load` does.
   [[nodiscard]] GrayImage load_right(FrameId id) const;
 
  private:

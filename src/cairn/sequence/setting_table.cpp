@@ -52,7 +52,7 @@ std::string in_quotes(const std::string& text) {
   return fmt::format("\"{}\"", result);
 }
 
-/// Whether two values mean the same: equal texts, or the same of yes and no.
+/// Tells whether two values mean the same: equal texts, or both yes, or both no.
 bool means_the_same(const std::string& a, const std::string& b) {
   bool truth_of_a = false, truth_of_b = false;
   const bool are_truths = parse_bool(a, truth_of_a) && parse_bool(b, truth_of_b);

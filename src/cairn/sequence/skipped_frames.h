@@ -13,27 +13,28 @@
 
 namespace cairn {
 
-/// Keeps account of the frames of a recording that cannot be read and are left out: an image that is missing,
-/// empty, cut or of another size. Warns of each as soon as one frame could be read, and of none where none
-/// can: then one error says so. Of very many it warns of the first ten one by one.
+/// Counts the frames of a recording that cannot be read and are left out: an image that is missing, empty,
+/// truncated or of another size. Warns of each once one frame could be read, and of none if none can: then
+/// one error says so. Of very many it warns of the first ten one by one.
 class SkippedFrames {
  public:
-  /// `noun`: what a frame is called in what is said of it.
+  /// Reports to `progress`; `noun` is the word for a frame in messages.
   explicit SkippedFrames(Progress& progress, std::string noun = "frame")
       : progress_(progress), noun_(std::move(noun)) {}
 
-  /// A frame cannot be read, for the InputError `failure`; `warning` is what to say of it.
+  /// Skips a frame that cannot be read because of the InputError `failure`; `warning` is the message.
   void skip(const std::exception_ptr& failure, std::string warning);
-  /// The same, with what the InputError says and that the frame is skipped.
+  /// Skips a frame that cannot be read because of the InputError `failure`; warns with its message and that
+  /// the frame is skipped.
   void skip(const std::exception_ptr& failure);
-  /// A frame could be read.
+  /// Notes that a frame could be read.
   void take();
-  /// Says how many frames were skipped without a word of their own. InputError where frames were skipped and
-  /// none could be read: that of the first, with their number.
+  /// Warns of the number of frames that were skipped without a warning of their own. Throws InputError if
+  /// frames were skipped and none could be read: that of the first, with their number.
   void finish();
 
   [[nodiscard]] std::int64_t count() const { return static_cast<std::int64_t>(messages_.size()); }
-  /// What is wrong with each, in the order of the frames.
+  /// Returns the message for each skipped frame, in the order of the frames.
   [[nodiscard]] const std::vector<std::string>& messages() const { return messages_; }
 
  private:

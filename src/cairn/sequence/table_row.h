@@ -13,42 +13,45 @@
 
 namespace cairn {
 
-/// By what the rows of one file find their frames.
+/// Describes how the rows of one file are assigned to frames.
 struct RowKeys {
-  bool are_times = true;                 ///< else numbers of frames
+  bool are_times = true;                 ///< false: numbers of frames
   TimeUnit unit = TimeUnit::nanosecond;  ///< of times
 };
 
-/// Tells by the first row of numbers, or without one by the first line, what stands between the values.
+/// Finds the separator of the values by the first row of numbers or, without one, by the first line.
 [[nodiscard]] Separator separator_of_rows(const std::filesystem::path& path);
 
-/// Returns the lines below the header that hold something.
+/// Returns the non-empty lines below the header.
 [[nodiscard]] std::vector<TextLine> rows_below(const TableHeader& header, const TextFile& file);
 
-/// Infers what the first column holds: a time by its name or by the size of its stamps; a number of a frame
+/// Infers what the first column holds: a time by its name or by the size of its stamps. A number of a frame
 /// that is as large as a stamp since 1970 is a time, too ("frame_id" of 4Seasons).
 [[nodiscard]] RowKeys keys_of_rows(const TableHeader& header, const std::vector<TextLine>& rows);
 
-/// Whether the first column holds whole numbers of an unstated unit, too small for stamps in nanoseconds.
+/// Tells whether the first column holds whole numbers of an unstated unit, too small for stamps in
+/// nanoseconds.
 [[nodiscard]] bool hold_frame_numbers(const TableHeader& header, const std::vector<TextLine>& rows);
 
-/// One row, its fields by the columns' names.
+/// Reads one row by the columns' names. Throws InputError with the line if a value is invalid.
 class TableRow {
  public:
   TableRow(const TextFile& file, const TextLine& line, const TableHeader& header)
       : file_(file), line_(line), header_(header) {}
 
+  /// Returns the row's key: nanoseconds, or the number of a frame.
   [[nodiscard]] std::int64_t key(const RowKeys& keys) const;
-  /// Whether one of these columns is empty or NaN, as programs write where they know no pose.
+  /// Tells whether one of these columns is empty or not finite, as programs write if they know no pose.
   [[nodiscard]] bool lacks(const ColumnTriple& columns) const;
-  /// The three values, metres or degrees, each within its limit.
+  /// Returns the three values, metres or degrees, each within its limits.
   [[nodiscard]] Eigen::Vector3d values(const ColumnTriple& columns, const Eigen::Vector3d& lowest,
                                        const Eigen::Vector3d& highest) const;
   [[nodiscard]] Eigen::Vector3d values(const ColumnTriple& columns, double limit) const {
     return values(columns, Eigen::Vector3d::Constant(-limit), Eigen::Vector3d::Constant(limit));
   }
+  /// Returns three standard deviations, metres or degrees, in [0, limit].
   [[nodiscard]] Eigen::Vector3d deviations(const ColumnTriple& columns, double limit) const;
-  /// Of length 1 to a hundredth, normalised.
+  /// Returns the quaternion, normalised; its length must be 1 within a hundredth.
   [[nodiscard]] Eigen::Quaterniond quaternion() const;
 
  private:
@@ -60,8 +63,8 @@ class TableRow {
   const TableHeader& header_;
 };
 
-/// Checks that all rows have as many values as the header has names. Fewer pass if every row has as many and
-/// the columns that are read are among them; more if they are empty.
+/// Throws InputError unless all rows have as many values as the header has names. Fewer pass if every row has
+/// as many and the columns that are read are among them; more if they are empty.
 void expect_columns(const TextFile& file, const TableHeader& header, const std::vector<TextLine>& rows);
 
 }  // namespace cairn

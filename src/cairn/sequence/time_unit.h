@@ -8,10 +8,11 @@
 
 namespace cairn {
 
+/// Names the unit of a stamp.
 enum class TimeUnit : std::uint8_t { second, millisecond, microsecond, nanosecond };
 
-/// Parses a decimal number of `unit` into nanoseconds, exactly if it has no exponent. Returns false for
-/// what is no number, lies beyond 9e18 nanoseconds, or is a part of a nanosecond: other units were meant.
+/// Parses a decimal number of `unit` into nanoseconds, exactly if it has no exponent. Returns false if it is
+/// not a number, lies beyond 9e18 nanoseconds, or is a fraction of a nanosecond: another unit was meant.
 [[nodiscard]] bool parse_stamp_in(TimeUnit unit, std::string_view text, std::int64_t& stamp_ns);
 
 /// Infers the unit of the stamps of one file by their size: those since 1970 have ten digits in seconds and

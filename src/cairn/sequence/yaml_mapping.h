@@ -11,23 +11,25 @@
 
 namespace cairn {
 
-/// The contents of a YAML file; OpenCV's first line `%YAML:1.0`, which is no YAML, is passed over. InputError
-/// for what is no YAML and for an empty file.
+/// Loads a YAML file; skips OpenCV's first line `%YAML:1.0`, which is not YAML. Throws InputError for invalid
+/// YAML and for an empty file.
 [[nodiscard]] YAML::Node load_yaml(const std::filesystem::path& path);
 
 /// Reads one YAML mapping; every error is an InputError with a line.
 class YamlMapping {
  public:
-  /// Keys that are not `known` are errors; with none known, all are let pass: files of others.
+  /// Wraps a mapping. Throws InputError for keys that are not `known`; if none is known, all are accepted, as
+  /// in files of other programs.
   YamlMapping(std::string file, std::string name, const YAML::Node& node,
               const std::vector<std::string>& known);
 
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] int line() const { return node_.Mark().line + 1; }
   [[nodiscard]] bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
-  /// The key is there.
+  /// Throws InputError unless the key exists.
   void expect(const std::string& key, const std::string& kind) const;
 
+  /// Returns the value of `key`. Throws InputError that names `kind` if it is missing or of another type.
   template <class T>
   [[nodiscard]] T get(const std::string& key, const std::string& kind) const {
     expect(key, kind);
@@ -40,12 +42,13 @@ class YamlMapping {
   }
   [[nodiscard]] double number(const std::string& key) const;    ///< finite
   [[nodiscard]] double positive(const std::string& key) const;  ///< above 0
-  /// So many finite numbers; `kind` says what they are.
+  /// Returns `count` finite numbers; `kind` describes them in messages.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count,
                                             const std::string& kind) const;
+  /// Returns the mapping that is the value of `key`.
   [[nodiscard]] YamlMapping sub(const std::string& key, const std::vector<std::string>& known) const;
 
-  /// InputError that names the value of `key` unless the condition holds.
+  /// Throws InputError that names the value of `key` unless the condition holds.
   void check(bool holds, const std::string& key, const std::string& expected) const;
 
  private:

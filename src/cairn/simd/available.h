@@ -8,9 +8,10 @@
 
 namespace cairn {
 
+/// Returns the name of a set as CAIRN_SIMD takes it: plain, sse4.2, avx2, avx512.
 [[nodiscard]] std::string_view name_of(InstructionSet set);
 
-/// Those that this build holds and this processor has, ascending; the first is plain.
+/// Returns the sets that this build holds and this processor has, ascending; the first is plain.
 [[nodiscard]] const std::vector<InstructionSet>& available_instruction_sets();
 
 }  // namespace cairn

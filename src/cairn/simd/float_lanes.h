@@ -6,7 +6,7 @@
 #endif
 
 /// For kernel sources: a vector of floats as wide as the instruction set has it, with + - * / of the
-/// compiler. What is done lane by lane gives the same bits at any width. Everything has internal linkage, see
+/// compiler. Lane-by-lane operations give the same bits at any width. Everything has internal linkage, see
 /// cmake/kernels.cmake.
 namespace cairn::CAIRN_ISA {
 
@@ -29,16 +29,18 @@ static inline Lanes larger(Lanes a, Lanes b) {
 static inline Lanes smaller(Lanes a, Lanes b) {
   return _mm512_maskz_min_ps(kAll, a, b);
 }
-/// Bit l says whether a >= b in lane l.
+/// Returns a mask: bit l is set if a >= b in lane l.
 static inline unsigned at_least(Lanes a, Lanes b) {
   return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ);
 }
+/// Selects lane by lane: a > b ? if_greater : otherwise.
 static inline Lanes choose(Lanes a, Lanes b, Lanes if_greater, Lanes otherwise) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_GT_OQ), otherwise, if_greater);
 }
 static inline Lanes square_root(Lanes a) {
   return _mm512_maskz_sqrt_ps(kAll, a);
 }
+/// Stores the values as integers, rounded towards zero.
 static inline void store_truncated(int* to, Lanes value) {
   _mm512_storeu_si512(to, _mm512_maskz_cvttps_epi32(kAll, value));
 }

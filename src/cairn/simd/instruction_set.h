@@ -3,8 +3,8 @@
 
 namespace cairn {
 
-/// Kernels are compiled once per instruction set, from one source, and chosen at run time. Every set gives
-/// the same bits: integers, or floats added and multiplied in one order and never contracted.
+/// Names an instruction set. Kernels are compiled once per set, from one source, and chosen at run time.
+/// Every set gives the same bits: integers, or floats added and multiplied in one order and never contracted.
 enum class InstructionSet {
   plain,   ///< what every machine of the architecture has
   sse42,   ///< SSE4.2 and POPCNT
@@ -12,8 +12,9 @@ enum class InstructionSet {
   avx512,  ///< AVX-512 F, BW, VL, DQ, VBMI, VNNI, BITALG and VPOPCNTDQ, as since Ice Lake and Zen 4
 };
 
-/// The highest that this build holds and this processor has, or the one that the environment variable
-/// CAIRN_SIMD names (plain, sse4.2, avx2, avx512). InputError where that is none of them or not available.
+/// Returns the highest set that this build holds and this processor has, or the one that the environment
+/// variable CAIRN_SIMD names (plain, sse4.2, avx2, avx512). Throws InputError if that is none of them or not
+/// available.
 [[nodiscard]] InstructionSet default_instruction_set();
 
 }  // namespace cairn

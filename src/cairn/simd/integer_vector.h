@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// The integer instructions that SSE4.2 and AVX2 have alike, so that a kernel is written once for both.
-/// Static: each instruction set's object has its own.
+/// Wraps the integer instructions that SSE4.2 and AVX2 share, so that a kernel is written once for both. All
+/// are static: each instruction set's object has its own.
 #if defined(__SSE4_2__)
 #include <immintrin.h>
 
@@ -26,7 +26,7 @@ using IntVector = __m256i;
 [[gnu::always_inline]] static inline IntVector bit_xor(IntVector a, IntVector b) {
   return _mm256_xor_si256(a, b);
 }
-/// The 16 bytes in each half.
+/// Loads 16 bytes into each half.
 [[gnu::always_inline]] static inline IntVector repeat16(const void* from) {
   return _mm256_broadcastsi128_si256(_mm_loadu_si128(static_cast<const __m128i*>(from)));
 }
@@ -50,7 +50,7 @@ using IntVector = __m128i;
 }
 #endif
 
-inline constexpr std::size_t kVectorLanes = sizeof(IntVector) / 4;  ///< of 32 bits
+inline constexpr std::size_t kVectorLanes = sizeof(IntVector) / 4;  ///< number of 32-bit lanes
 
 [[gnu::always_inline]] static inline IntVector add32(IntVector a, IntVector b) {
   return CAIRN_VECTOR(add_epi32)(a, b);
@@ -58,7 +58,7 @@ inline constexpr std::size_t kVectorLanes = sizeof(IntVector) / 4;  ///< of 32 b
 [[gnu::always_inline]] static inline IntVector add8(IntVector a, IntVector b) {
   return CAIRN_VECTOR(add_epi8)(a, b);
 }
-/// Of pairs of 16-bit numbers, the sum of the products: 32 bits.
+/// Computes the sums of products of pairs of 16-bit numbers, 32 bits each.
 [[gnu::always_inline]] static inline IntVector dot16(IntVector a, IntVector b) {
   return CAIRN_VECTOR(madd_epi16)(a, b);
 }

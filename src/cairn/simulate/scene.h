@@ -12,8 +12,8 @@
 
 namespace cairn {
 
-/// A rectangle in space, seen from the side to which right x down points away from the viewer: for a viewer
-/// in front of it, `right` is to the right, `down` is down and the texture reads as it was painted.
+/// Describes a rectangle in space, seen from the side to which right x down points away from the viewer: for
+/// a viewer in front of it, `right` is to the right, `down` is down and the texture reads as it was painted.
 struct Surface {
   Eigen::Vector3d corner;  ///< top left, metres
   Eigen::Vector3d right;   ///< unit
@@ -23,23 +23,23 @@ struct Surface {
   int texture = 0;         ///< index into Scene::textures
 };
 
-/// Textured rectangles and what is seen between them.
+/// Holds textured rectangles and the colour that is seen between them.
 struct Scene {
   std::vector<Surface> surfaces;
   std::vector<Texture> textures;
   Color background{200, 205, 215};
 };
 
-/// What a pinhole camera without distortion sees at a place: light before the sensor's gain and noise, and
-/// the exact depth along the optical axis, metres, 0 where nothing is hit.
+/// Holds what a pinhole camera without distortion sees: light before the sensor's gain and noise, and the
+/// exact depth along the optical axis, metres, 0 if nothing is hit.
 struct SceneImage {
   Image<Color> light;
   DepthImage depth;
 };
 
-/// Casts one ray through the centre of each pixel, exactly; where surfaces meet, the light is the mean of
-/// four rays in the pixel. Textures are filtered over the pixel's footprint. Runs in one thread, safe to
-/// call from several: parallelism is over frames.
+/// Renders a scene: casts one ray through the centre of each pixel, exactly; where surfaces meet, the light
+/// is the mean of four rays in the pixel. Textures are filtered over the pixel's footprint. Uses one thread
+/// and is safe to call from several: parallelism is over frames.
 [[nodiscard]] SceneImage render_scene(const Scene& scene, const Camera& camera,
                                       const Rigid3& scene_from_camera);
 

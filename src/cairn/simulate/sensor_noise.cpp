@@ -41,7 +41,7 @@ class DepthNeighbourhood {
  public:
   DepthNeighbourhood(const DepthImage& depth, const Camera& camera) : depth_(depth), camera_(camera) {}
 
-  /// Whether a neighbour lies so much nearer or further that no surface would be seen so slanted.
+  /// Tells whether a neighbour lies so much nearer or farther that no surface would be seen at such a slant.
   [[nodiscard]] bool at_edge(int u, int v) const {
     constexpr double kMaxSlope = 15;  // tangent of 86 degrees
     const double z = depth_(u, v);

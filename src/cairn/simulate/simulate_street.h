@@ -14,36 +14,39 @@
 
 namespace cairn {
 
-/// The left camera of a car with a stereo rig, 1242x375, as KITTI's.
+/// Returns the left camera of a car with a stereo rig, 1242x375, as KITTI's.
 [[nodiscard]] Camera simulated_stereo_camera();
 
-/// camera: noisy images of varying gain. none: exact.
+/// Names the noise. camera: noisy images of varying gain. none: exact.
 enum class StreetNoise { camera, none };
 
+/// Sets the drive, the cameras and the noise.
 struct SimulateStreetOptions {
   int frames_count = 200;
-  double rate_hz = 10;  ///< frames a second
-  double speed = 8;     ///< metres a second, mean over a round
+  double rate_hz = 10;  ///< frames per second
+  double speed = 8;     ///< metres per second, mean over a round
   int loops = 0;        ///< times around the block; 0: as many as keep a round below 400 m
-  Camera camera = simulated_stereo_camera();  ///< pinhole; both cameras
+  Camera camera = simulated_stereo_camera();  ///< pinhole; used for both cameras
   double baseline = 0.537;                    ///< metres
   StreetNoise noise = StreetNoise::camera;
-  float image_deviation = 2;  ///< of the image noise, grey levels; none with StreetNoise::none
-  std::uint64_t seed = 1;     ///< of the street, the textures and all noise
+  /// Standard deviation of the image noise, grey levels; none with StreetNoise::none.
+  float image_deviation = 2;
+  std::uint64_t seed = 1;  ///< determines the street, the textures and all noise
 
-  /// InputError, naming the option of the command line, for what no car could have.
+  /// Throws InputError that names the option of the command line if no car could have the value.
   void validate() const;
 };
 
+/// Holds the images of one frame.
 struct SimulatedStereoFrame {
   GrayImage left, right;
   DepthImage depth_true;  ///< of the left camera, metres, exact to the float, 0 for the sky
 };
 
-/// A street around a block, driven with a rectified stereo camera, with exact truth, without touching a disk.
-/// The drive ends where it began; the block is at least 100 m around, so that fewer frames than a round needs
-/// (125 by default) make a part of it. The same bytes from the same options, on any thread. The world is the
-/// first left camera, as KITTI has it.
+/// Simulates a street around a block, driven with a rectified stereo camera, with exact truth, without
+/// touching a disk. The drive ends where it began; the block is at least 100 m around, so that fewer frames
+/// than a round needs (125 by default) make a part of it. Gives the same bytes from the same options, on any
+/// thread. The world is the first left camera, as KITTI has it.
 class SimulatedStreet {
  public:
   /// Paints the street, which takes a few seconds for the default camera; less for a smaller one.
@@ -53,10 +56,10 @@ class SimulatedStreet {
   [[nodiscard]] const Camera& camera() const { return options_.camera; }
   [[nodiscard]] Calibration calibration() const;
   [[nodiscard]] std::int64_t stamp_ns(int frame) const;
-  /// Of the left camera; the right one is `baseline` along its x axis.
+  /// Returns the pose of the left camera; the right one is `baseline` along its x axis.
   [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
-  /// Safe to call from several threads.
+  /// Renders a frame. Safe to call from several threads.
   [[nodiscard]] SimulatedStereoFrame render(int frame) const;
 
  private:

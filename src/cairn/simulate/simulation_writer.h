@@ -13,25 +13,25 @@
 
 namespace cairn {
 
-/// What was simulated.
+/// Describes what was simulated.
 struct SimulationReport {
-  int frames = 0;       ///< fewer than asked for where the user stopped
-  double length = 0;    ///< metres between the first camera and the last, along the way
+  int frames = 0;       ///< fewer than asked for if the user stopped
+  double length = 0;    ///< metres along the path from the first camera to the last
   double duration = 0;  ///< seconds between the first frame and the last
   bool stopped = false;
 };
 
-/// Makes a folder; InputError where that fails.
+/// Makes a folder. Throws InputError if that fails.
 void make_folder(const std::filesystem::path& folder);
 
-/// Writes the images of frames 0 to count - 1 in parallel, a stage of that name. `write_frame(i)` returns the
-/// paths that it wrote. Where `progress` asks to stop, frames begun after the last one counted are removed
-/// again. Returns how many frames are complete.
+/// Writes the images of frames 0 to count - 1 in parallel, as a stage of that name. `write_frame(i)` returns
+/// the paths that it wrote. If `progress` asks to stop, removes frames begun after the last one counted.
+/// Returns the number of complete frames.
 [[nodiscard]] int write_frames(std::string_view stage, int count, const Executor& executor,
                                Progress& progress,
                                const std::function<std::vector<std::filesystem::path>(int)>& write_frame);
 
-/// Report on the first `frames` poses.
+/// Reports on the first `frames` poses.
 [[nodiscard]] SimulationReport report_on(const Trajectory& truth, int frames);
 
 }  // namespace cairn

@@ -5,20 +5,21 @@
 
 namespace cairn {
 
-/// A piece of ground along a street: asphalt with a dashed line in the middle of its road and pavements.
-/// Lengths in metres.
+/// Describes a piece of ground along a street: asphalt with a dashed line in the middle of its road and
+/// pavements. Lengths in metres.
 struct StreetGround {
   bool along_x = true;       ///< the street runs along the canvas' columns, otherwise along its rows
   bool near_first = true;    ///< the pavement that is `near` lies at the canvas' upper or left border
   double near_pavement = 0;  ///< width of the pavement at that border
-  double far_pavement = 0;   ///< and at the opposite one
-  double corner = 0;         ///< at both ends the far pavement is missing over this length
+  double far_pavement = 0;   ///< width of the pavement at the opposite border
+  double corner = 0;         ///< length at both ends over which the far pavement is missing
 };
 
+/// Paints a piece of ground.
 [[nodiscard]] Painter street_ground(const StreetGround& ground);
-/// The front of a house: a door or a shop window below, windows above, in its own colours.
+/// Paints the front of a house: a door or a shop window below, windows above, in its own colours.
 [[nodiscard]] Painter house_front();
-/// Bare bricks.
+/// Paints bare bricks.
 [[nodiscard]] Painter brick_wall();
 [[nodiscard]] Painter car_body();
 [[nodiscard]] Painter pole();

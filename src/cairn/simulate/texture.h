@@ -11,8 +11,8 @@ namespace cairn {
 /// Red, green, blue before rounding, 0 to 255.
 using Color = Eigen::Vector3f;
 
-/// A picture that is laid on a surface, with the pyramid of its halves, so that a look at it from afar is
-/// filtered and not aliased. Immutable; safe to sample from several threads.
+/// Holds a picture that is laid on a surface, with the pyramid of its halves, so that it is filtered and not
+/// aliased if seen from afar. Immutable; safe to sample from several threads.
 class Texture {
  public:
   explicit Texture(RgbImage picture);
@@ -20,9 +20,9 @@ class Texture {
   [[nodiscard]] int width() const { return levels_.front().width(); }
   [[nodiscard]] int height() const { return levels_.front().height(); }
 
-  /// Mean colour over the parallelogram spanned by `step_x` and `step_y` (what one pixel sees) about
-  /// `position`, all in pixels of the picture, (0, 0) the centre of its first pixel. Beyond its border the
-  /// picture repeats the border's pixels. Long footprints are split into up to 8 probes along their long
+  /// Computes the mean colour over the parallelogram spanned by `step_x` and `step_y` (what one pixel sees)
+  /// about `position`, all in pixels of the picture, (0, 0) the centre of its first pixel. Beyond its border
+  /// the picture repeats the border's pixels. Long footprints are split into up to 8 probes along their long
   /// side (McCormack et al., "Feline", 1999), each trilinear.
   [[nodiscard]] Color sample(const Eigen::Vector2d& position, const Eigen::Vector2d& step_x,
                              const Eigen::Vector2d& step_y) const;

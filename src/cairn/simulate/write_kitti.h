@@ -11,24 +11,24 @@ namespace cairn {
 
 // The layout of the KITTI odometry benchmark (Geiger et al. 2012), into a folder that exists: image_0 (left)
 // and image_1 (right), calib.txt, times.txt, poses.txt (3x4 world_from_camera by rows, of the left camera).
-// InputError where the disk refuses.
+// Throws InputError if the disk fails.
 
-/// Writes a simulated street. With `depth_truth` the left camera's true depth in a folder of that name, 16
-/// bit, 256 units per metre, 0 where there is none.
+/// Writes a simulated street. With `depth_truth`, also the left camera's true depth in a folder of that name,
+/// 16 bit, 256 units per metre, 0 if unknown.
 SimulationReport write_kitti(const SimulatedStreet& street, const std::filesystem::path& folder,
                              bool depth_truth, const Executor& executor, Progress& progress);
 
-/// What was written of a stereo sequence.
+/// Describes what was written of a stereo sequence.
 struct RectifiedReport {
-  int frames = 0;          ///< fewer than the sequence has where the user stopped or some cannot be read
+  int frames = 0;          ///< fewer than the sequence has if the user stopped or some cannot be read
   int unreadable = 0;      ///< left out, each with a warning; their numbers are missing in the file names
-  bool has_poses = false;  ///< every one of them has a true pose
+  bool has_poses = false;  ///< every frame written has a true pose
   bool stopped = false;
 };
 
-/// Writes a stereo sequence as FrameLoader gives it, rectified and grey; poses.txt where every frame has a
-/// true pose. Pairs that cannot be read are left out. InputError for a sequence that is not stereo and where
-/// no pair can be read.
+/// Writes a stereo sequence as FrameLoader gives it, rectified and grey; poses.txt if every frame has a true
+/// pose. Leaves out pairs that cannot be read. Throws InputError if the sequence is not stereo or no pair can
+/// be read.
 RectifiedReport write_rectified(const Sequence& sequence, const std::filesystem::path& folder,
                                 const Executor& executor, Progress& progress);
 

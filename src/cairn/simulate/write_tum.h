@@ -9,8 +9,8 @@
 namespace cairn {
 
 /// Writes a simulated room into a folder that exists, in the layout of the TUM RGB-D benchmark (Sturm et al.
-/// 2012): rgb.txt, depth.txt, associations.txt, groundtruth.txt (world_from_camera), rgb/ and depth/ named
-/// by their stamps, and camera.yaml. InputError where the disk refuses.
+/// 2012): rgb.txt, depth.txt, associations.txt, groundtruth.txt (world_from_camera), rgb/ and depth/ named by
+/// their stamps, and camera.yaml. Throws InputError if the disk fails.
 SimulationReport write_tum(const SimulatedRoom& room, const std::filesystem::path& folder,
                            const Executor& executor, Progress& progress);
 

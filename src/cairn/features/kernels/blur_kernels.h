@@ -7,14 +7,15 @@
 
 namespace cairn {
 
-/// Symmetric filters of rows of floats. Columns are worked on in steps of kBlurStep.
+/// Lists the kernels of one instruction set: symmetric filters of rows of floats. Columns are processed in
+/// steps of kBlurStep.
 struct BlurKernels {
-  /// out[x] = sum over k < pairs of weights[k] (rows[-k][x] + rows[k + shift][x]) for x in [begin, end): a
-  /// filter along columns around row 0, or between rows 0 and 1 where `shift` is 1.
+  /// Filters along columns: out[x] = sum over k < pairs of weights[k] (rows[-k][x] + rows[k + shift][x]) for
+  /// x in [begin, end), around row 0, or between rows 0 and 1 if `shift` is 1.
   void (*sum_rows)(const float* const* rows, int shift, const float* weights, int pairs, int begin, int end,
                    float* out);
-  /// out[x] = weights[0] in[x] + sum over 1 <= k <= radius of weights[k] (in[x - k] + in[x + k]); `in` goes
-  /// on for `radius` floats on both sides.
+  /// Filters along a row: out[x] = weights[0] in[x] + sum over 1 <= k <= radius of weights[k] (in[x - k] +
+  /// in[x + k]); `in` continues for `radius` floats on both sides.
   void (*blur_row)(const float* in, const float* weights, int radius, int count, float* out);
 };
 
@@ -22,7 +23,7 @@ constexpr int kBlurStep = 16;  ///< floats, the widest vector
 
 CAIRN_KERNEL_TABLES(BlurKernels, kBlurKernels)
 
-/// The kernels for `set`, which is available.
+/// Returns the kernels for `set`, which must be available.
 [[nodiscard]] inline const BlurKernels& blur_kernels(InstructionSet set = default_instruction_set()) {
   return CAIRN_CHOOSE_KERNELS(set, kBlurKernels);
 }

@@ -36,8 +36,8 @@ template <class B>
   return best;
 }
 
-/// Whether any pixel may be a corner: of 9 neighbours on the ring, two are neighbours among its top, right,
-/// bottom and left.
+/// Tells whether any pixel may be a corner: of 9 neighbours on the ring, two are neighbours among its top,
+/// right, bottom and left.
 template <class B>
 bool cross_differs(const B* d, B limit) {
   return least(most(d[0], d[8]), most(d[4], d[12])).not_below(limit) != 0;

@@ -8,7 +8,7 @@ namespace cairn {
 
 CAIRN_KERNEL_TABLES(DistanceKernels, kHammingKernels)
 
-/// Number of bits that differ; the kernels for `set`, which is available.
+/// Returns the kernels for the number of bits that differ, for `set`, which must be available.
 [[nodiscard]] inline const DistanceKernels& hamming_kernels(InstructionSet set = default_instruction_set()) {
   return CAIRN_CHOOSE_KERNELS(set, kHammingKernels);
 }

@@ -8,8 +8,8 @@ namespace cairn {
 
 CAIRN_KERNEL_TABLES(DistanceKernels, kL2Kernels)
 
-/// Squared Euclidean distance of bytes, exact for descriptors of at most 32768 bytes; the kernels for `set`,
-/// which is available.
+/// Returns the kernels for the squared Euclidean distance of bytes, exact for descriptors of at most 32768
+/// bytes, for `set`, which must be available.
 [[nodiscard]] inline const DistanceKernels& l2_kernels(InstructionSet set = default_instruction_set()) {
   return CAIRN_CHOOSE_KERNELS(set, kL2Kernels);
 }

@@ -9,36 +9,37 @@
 
 namespace cairn {
 
-/// Farther than any distance.
+/// Value that is larger than any distance.
 inline constexpr std::int32_t kNoDistance = std::numeric_limits<std::int32_t>::max();
 
-/// The two smallest of some distances and their places, or kNoDistance and -1 where there is none.
+/// Holds the two smallest of some distances and their positions, or kNoDistance and -1 if there is none.
 struct TwoSmallest {
   std::int32_t first = kNoDistance, first_at = -1;
   std::int32_t second = kNoDistance, second_at = -1;
 };
 
-/// Smallest distances so far of some columns, each with the row that it is in.
+/// Refers to the smallest distances so far of some columns, each with the row that it is in.
 struct ColumnMinima {
   std::int32_t* distances = nullptr;
   std::int32_t* rows = nullptr;
 };
 
-/// Of equal distances the one at the lower place or row is the smaller. Distances are in [0, kNoDistance];
-/// kNoDistance is never found.
+/// Lists the kernels of one instruction set. Of equal distances, the one at the lower position or row counts
+/// as smaller. Distances are in [0, kNoDistance]; kNoDistance is never found.
 struct NearestKernels {
-  /// The smallest only; the second stays unset. `count` is a multiple of 16.
+  /// Finds the smallest distance; the second stays unset. `count` is a multiple of 16.
   TwoSmallest (*smallest)(const std::int32_t* distances, std::size_t count);
+  /// Finds the two smallest distances. `count` is a multiple of 16.
   TwoSmallest (*two_smallest)(const std::int32_t* distances, std::size_t count);
-  /// Row r of `rows` rows lies at distances + r * count and is called first_row + r. Rows come in ascending
-  /// order, also over several calls.
+  /// Updates the minima with `rows` rows: row r begins at distances + r * count and has the number first_row
+  /// + r. Rows come in ascending order, also over several calls.
   void (*update_columns)(const std::int32_t* distances, std::size_t rows, std::size_t count,
                          std::int32_t first_row, const ColumnMinima& minima);
 };
 
 CAIRN_KERNEL_TABLES(NearestKernels, kNearestKernels)
 
-/// The kernels for `set`, which is available.
+/// Returns the kernels for `set`, which must be available.
 [[nodiscard]] inline const NearestKernels& nearest_kernels(InstructionSet set = default_instruction_set()) {
   return CAIRN_CHOOSE_KERNELS(set, kNearestKernels);
 }

@@ -5,9 +5,9 @@
 
 namespace cairn {
 
-constexpr int kObservationLanes = 8;  ///< observations side by side, the widest vector of doubles
+constexpr int kObservationLanes = 8;  ///< observations side by side: the widest vector of doubles
 
-/// Eight observations of one landmark; lane i of every array is the i-th one's. With R the rotation
+/// Holds eight observations of one landmark; lane i of every array belongs to the i-th. With R the rotation
 /// camera_from_world, c the camera's centre, q = X - c, and s, t the inverse standard deviations of pixels
 /// and disparity, the errors of the point X in standard deviations are
 ///
@@ -25,23 +25,25 @@ struct alignas(64) ObservationBlock {
   double disparity[kObservationLanes];
 };
 
-/// Half the cost to second order in the point: sums over the observations. Matrices are xx, xy, xz, yy, yz,
+/// Sums half the cost over the observations to second order in the point. Matrices are xx, xy, xz, yy, yz,
 /// zz.
 struct LandmarkSums {
   double information[6];  ///< J^T J
-  double curvature[6];    ///< what the second derivatives of the errors, times these, add to it
-  double gradient[3];     ///< J^T e
+  /// J^T J plus this is the Hessian: second derivatives of the errors, times the errors.
+  double curvature[6];
+  double gradient[3];  ///< J^T e
   double squared_error;
 };
 
-/// A landmark's equations at `point`: of the errors e for `expand`; for `linearise` of equations linear in
-/// the point, the errors times depth over the depth of `point` (Hartley and Sturm 1997, sec. 5.2). Their
-/// values at `point` are the same. pixel_errors and errors get each lane's squared error, of (u, v) and of
-/// all, in variances. An observation less than a micrometre in front of its camera has infinite squared
-/// errors, and then the derivatives mean nothing.
+/// Computes a landmark's equations at `point`: `expand` those of the errors e; `linearise` those of equations
+/// linear in the point, the errors times depth over the depth of `point` (Hartley and Sturm 1997, sec. 5.2).
+/// Both have the same values at `point`. pixel_errors and errors receive each lane's squared error, of (u, v)
+/// and in total, in variances. An observation less than a micrometre in front of its camera has infinite
+/// squared errors; the derivatives are then meaningless.
 using LandmarkExpansion = void(const ObservationBlock* blocks, int count, const double* point,
                                LandmarkSums* sums, double* pixel_errors, double* errors);
 
+/// Lists the kernels of one instruction set.
 struct LandmarkKernels {
   LandmarkExpansion* expand;
   LandmarkExpansion* linearise;
@@ -49,7 +51,7 @@ struct LandmarkKernels {
 
 CAIRN_KERNEL_TABLES(LandmarkKernels, kLandmarkKernels)
 
-/// The kernels for `set`, which is available.
+/// Returns the kernels for `set`, which must be available.
 [[nodiscard]] inline const LandmarkKernels& landmark_kernels(InstructionSet set = default_instruction_set()) {
   return CAIRN_CHOOSE_KERNELS(set, kLandmarkKernels);
 }
