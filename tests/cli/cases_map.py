@@ -78,7 +78,7 @@ def cut(name, count):
 
 
 MAP = map_folder()
-FIGURES = ("keyframes    2, 2 features each", "parts        2, of 1, 1 keyframes", "landmarks    1\n", "sightings    2, 2.00 per landmark",
+FIGURES = ("keyframes    2, 2 features each", "components   2, of 1, 1 keyframes", "landmarks    1\n", "observations 2, 2.00 per landmark",
            "descriptors  ORB (Hamming, 32 bytes)", "images       64 x 48 pixels", "rms_px                0.25      0.25",
            "mean_depth             1.5", "no covariance: 1 landmarks")
 VERSION_REMEDY = "Make the map again, or read it with the version of cairn that made it."

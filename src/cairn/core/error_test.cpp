@@ -9,8 +9,8 @@ namespace cairn {
 namespace {
 
 TEST(InputError, names_place_expected_found_and_remedy) {
-  const InputError error({"poses.txt", 7, "8 values", "7", "Mend the line."});
-  EXPECT_STREQ(error.what(), "poses.txt:7: expected 8 values, found 7.\n  Mend the line.");
+  const InputError error({"poses.txt", 7, "8 values", "7", "Correct the line."});
+  EXPECT_STREQ(error.what(), "poses.txt:7: expected 8 values, found 7.\n  Correct the line.");
   EXPECT_EQ(error.details().line, 7);
 }
 

@@ -55,7 +55,7 @@ struct Options {
 
 void visit(Options& options, ParameterVisitor& visitor) {
   visitor.parameter({"radius", above(0, "pixels"), "A radius."}, options.radius);
-  visitor.parameter({"count", at_least(1, "frame"), "A count.", "", "Mend the value."}, options.count);
+  visitor.parameter({"count", at_least(1, "frame"), "A count.", "", "Correct the value."}, options.count);
   visitor.parameter({"check", {}, "A switch."}, options.check);
   visitor.parameter({"name", any("a name"), "A name."}, options.name);
   visitor.parameter({"depth", from(0, "metres"), "A depth."}, options.depth);
@@ -75,7 +75,7 @@ TEST(CheckRanges, names_the_parameter_its_range_and_the_remedy) {
   EXPECT_EQ(refusal({}), "");
   EXPECT_EQ(refusal({.radius = 0}),
             "radius: expected pixels above 0, found 0.\n  Leave it out for the default.");
-  EXPECT_EQ(refusal({.count = 0}), "count: expected at least 1 frame, found 0.\n  Mend the value.");
+  EXPECT_EQ(refusal({.count = 0}), "count: expected at least 1 frame, found 0.\n  Correct the value.");
   EXPECT_EQ(refusal({.depth = -0.5}),
             "depth: expected metres from 0, found -0.5.\n  Leave it out for the default.");
   EXPECT_EQ(refusal({.start = -1}),

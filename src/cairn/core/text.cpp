@@ -96,7 +96,7 @@ void TextFile::fail(const TextLine& line, std::string expected, std::string foun
 void TextFile::expect_fields(const TextLine& line, std::size_t count, std::string_view layout) const {
   if (line.fields.size() == count) return;
   fail(line, fmt::format("{} values ({})", count, layout), fmt::format("{}", line.fields.size()),
-       "Mend or delete the line.");
+       "Correct or delete the line.");
 }
 
 double TextFile::number(const TextLine& line, std::size_t field, std::string_view what) const {
@@ -104,7 +104,7 @@ double TextFile::number(const TextLine& line, std::size_t field, std::string_vie
   if (field < line.fields.size() && parse_number(line.fields[field], value)) return value;
   fail(line, fmt::format("a number for {}", what),
        field < line.fields.size() ? fmt::format("'{}'", line.fields[field]) : "nothing",
-       "Mend or delete the line.");
+       "Correct or delete the line.");
 }
 
 std::int64_t TextFile::integer(const TextLine& line, std::size_t field, std::string_view what) const {
@@ -112,7 +112,7 @@ std::int64_t TextFile::integer(const TextLine& line, std::size_t field, std::str
   if (field < line.fields.size() && parse_integer(line.fields[field], value)) return value;
   fail(line, fmt::format("a whole number for {}", what),
        field < line.fields.size() ? fmt::format("'{}'", line.fields[field]) : "nothing",
-       "Mend or delete the line.");
+       "Correct or delete the line.");
 }
 
 bool parse_number(std::string_view text, double& value) {

@@ -164,18 +164,18 @@ TEST_F(TextFileTest, names_the_line_of_what_is_no_number) {
   const TextFile file = open("1\n2 x 1.5\n");
   const TextLine& line = file.lines()[1];
   EXPECT_EQ(message([&] { (void)file.number(line, 1, "tx"); }),
-            ":2: expected a number for tx, found 'x'.\n  Mend or delete the line.");
+            ":2: expected a number for tx, found 'x'.\n  Correct or delete the line.");
   EXPECT_EQ(message([&] { (void)file.number(line, 3, "tx"); }),
-            ":2: expected a number for tx, found nothing.\n  Mend or delete the line.");
+            ":2: expected a number for tx, found nothing.\n  Correct or delete the line.");
   EXPECT_EQ(message([&] { (void)file.integer(line, 2, "id"); }),
-            ":2: expected a whole number for id, found '1.5'.\n  Mend or delete the line.");
+            ":2: expected a whole number for id, found '1.5'.\n  Correct or delete the line.");
 }
 
 TEST_F(TextFileTest, names_the_line_with_a_wrong_number_of_fields) {
   const TextFile file = open("1 2 3\n");
   EXPECT_NO_THROW(file.expect_fields(file.lines()[0], 3, "a b c"));
   EXPECT_EQ(message([&] { file.expect_fields(file.lines()[0], 2, "a b"); }),
-            ":1: expected 2 values (a b), found 3.\n  Mend or delete the line.");
+            ":1: expected 2 values (a b), found 3.\n  Correct or delete the line.");
 }
 
 /// The names in natural order.

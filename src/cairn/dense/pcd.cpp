@@ -67,14 +67,14 @@ std::int64_t PcdHeader::integer(std::string_view word, std::string_view what, st
   std::int64_t value = 0;
   if (parse_integer(word, value) && value >= low && value <= high) return value;
   fail(fmt::format("a whole number from {} to {} for {}", low, high, what), fmt::format("'{}'", word),
-       "Mend the header.");
+       "Correct the header.");
 }
 
 void PcdHeader::declare(const Words& words) {
   constexpr std::int64_t kMany = 1'000'000'000'000;
   const std::string_view word = words[0];
   if (word == "VERSION" || word == "VIEWPOINT") return;
-  if (words.size() < 2) fail("a value", fmt::format("'{}' alone", word), "Mend the header.");
+  if (words.size() < 2) fail("a value", fmt::format("'{}' alone", word), "Correct the header.");
   if (word == "FIELDS" || word == "COLUMNS") {
     fields_.clear();
     for (std::size_t i = 1; i < words.size(); ++i) fields_.push_back({std::string(words[i])});
@@ -99,7 +99,7 @@ void PcdHeader::declare(const Words& words) {
 void PcdHeader::declare_fields(const Words& words) {
   if (words.size() != fields_.size() + 1) {
     fail(fmt::format("{} with {} values, one for each of FIELDS", words[0], fields_.size()),
-         fmt::format("{}", words.size() - 1), "Mend the header.");
+         fmt::format("{}", words.size() - 1), "Correct the header.");
   }
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     if (words[0] == "SIZE") {
@@ -114,17 +114,17 @@ void PcdHeader::declare_fields(const Words& words) {
 
 void PcdHeader::set_size(PointField& field, std::string_view word) const {
   if (word != "1" && word != "2" && word != "4" && word != "8")
-    fail("a SIZE of 1, 2, 4 or 8", fmt::format("'{}'", word), "Mend the header.");
+    fail("a SIZE of 1, 2, 4 or 8", fmt::format("'{}'", word), "Correct the header.");
   field.size = static_cast<std::size_t>(word[0] - '0');
 }
 
 void PcdHeader::set_kind(PointField& field, std::string_view word) const {
   if (word != "F" && word != "I" && word != "U")
-    fail("a TYPE of F, I or U", fmt::format("'{}'", word), "Mend the header.");
+    fail("a TYPE of F, I or U", fmt::format("'{}'", word), "Correct the header.");
   field.kind = word[0];
   if (field.kind == 'F' && field.size < 4)
     fail("floating point of 4 or 8 bytes", fmt::format("{} of {} bytes", field.name, field.size),
-         "Mend the header.");
+         "Correct the header.");
 }
 
 void PcdHeader::set_format(std::string_view format) {

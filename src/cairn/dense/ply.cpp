@@ -101,15 +101,15 @@ void PlyHeader::begin_element(std::string_view name, std::string_view count) {
     fail("vertices as the first element", fmt::format("'{}'", name), "Write the vertices first.");
   std::int64_t number = 0;
   if (!parse_integer(count, number) || number < 0)
-    fail("the number of vertices", fmt::format("'{}'", count), "Mend the header.");
+    fail("the number of vertices", fmt::format("'{}'", count), "Correct the header.");
   count_ = static_cast<std::size_t>(number);
 }
 
 void PlyHeader::add_property(const Words& words) {
   if (elements_ > 1) return;
-  if (elements_ == 0) fail("an element before its properties", "a property", "Mend the header.");
+  if (elements_ == 0) fail("an element before its properties", "a property", "Correct the header.");
   const auto field = field_of(words[1], words[2]);
-  if (!field) fail("a PLY type such as float or uchar", fmt::format("'{}'", words[1]), "Mend the header.");
+  if (!field) fail("a PLY type such as float or uchar", fmt::format("'{}'", words[1]), "Correct the header.");
   fields_.push_back(*field);
 }
 

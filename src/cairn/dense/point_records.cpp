@@ -184,7 +184,7 @@ std::uint32_t PointRecords::parse_packed(std::string_view text, int line) const 
   float number = 0;
   if (field.kind != 'F' && parse_integer(text, integer)) return static_cast<std::uint32_t>(integer);
   if (field.kind == 'F' && parse_coordinate(text, number)) return std::bit_cast<std::uint32_t>(number);
-  fail(line, "a packed colour", fmt::format("'{}'", text), "Mend or delete the line.");
+  fail(line, "a packed colour", fmt::format("'{}'", text), "Correct or delete the line.");
 }
 
 CloudPoint PointRecords::parse(const std::vector<std::string_view>& values, int line) const {
@@ -192,12 +192,12 @@ CloudPoint PointRecords::parse(const std::vector<std::string_view>& values, int 
   const auto coordinate = [&](const Slot& slot, std::string_view name, float& out) {
     if (parse_coordinate(values[slot.column], out)) return;
     fail(line, fmt::format("a number for {}", name), fmt::format("'{}'", values[slot.column]),
-         "Mend or delete the line.");
+         "Correct or delete the line.");
   };
   const auto channel = [&](const Slot& slot, std::string_view name, std::uint8_t& out) {
     if (!slot.field || parse_byte(values[slot.column], out)) return;
     fail(line, fmt::format("a whole number from 0 to 255 for {}", name),
-         fmt::format("'{}'", values[slot.column]), "Mend or delete the line.");
+         fmt::format("'{}'", values[slot.column]), "Correct or delete the line.");
   };
   coordinate(x_, "x", point.x);
   coordinate(y_, "y", point.y);
@@ -226,7 +226,7 @@ Cloud PointRecords::read_ascii(const PointData& data) const {
     if (values.empty()) continue;
     if (values.size() != columns_) {
       fail(line, fmt::format("{} values", columns_), fmt::format("{}", values.size()),
-           "Mend or delete the line.");
+           "Correct or delete the line.");
     }
     ++read;
     const CloudPoint point = parse(values, line);

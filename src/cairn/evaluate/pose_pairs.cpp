@@ -53,7 +53,7 @@ std::vector<PosePair> read_pose_pairs(const std::filesystem::path& path) {
   for (const TextLine& line : file.lines()) {
     if (line.fields.size() != kFields) {
       file.fail(line, fmt::format("{} values ({})", kFields, kLayout), fmt::format("{}", line.fields.size()),
-                "Mend the line, or give two trajectories of 8 values a line.");
+                "Correct the line, or give two trajectories of 8 values a line.");
     }
     const StampedPose estimate = parse_tum_pose(file, line, 0), reference = parse_tum_pose(file, line, 8);
     pairs.push_back({estimate.stamp_ns, estimate.world_from_camera, reference.world_from_camera});

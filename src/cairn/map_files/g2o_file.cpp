@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view kVertexTag = "VERTEX_SE3:QUAT";
 constexpr std::string_view kEdgeTag = "EDGE_SE3:QUAT";
 constexpr std::string_view kFixTag = "FIX";
-constexpr std::string_view kMend = "Mend or delete the line.";
+constexpr std::string_view kMend = "Correct or delete the line.";
 
 /// Holds what was read so far, and the lines that can be checked only when all vertices are known.
 struct Reading {

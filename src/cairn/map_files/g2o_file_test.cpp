@@ -100,7 +100,7 @@ TEST(G2oFile, AcceptsSemiDefiniteInformation) {
 }
 
 TEST(G2oFile, NamesWhatIsWrong) {
-  const std::string mend = "\n  Mend or delete the line.";
+  const std::string mend = "\n  Correct or delete the line.";
   const std::string tags = "expected VERTEX_SE3:QUAT, EDGE_SE3:QUAT or FIX, found ";
   const struct {
     std::string text, message;

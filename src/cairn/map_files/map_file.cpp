@@ -105,7 +105,7 @@ void write_map(const std::filesystem::path& folder, const Map& map,
     writer.add_landmark(finished(map, map[id], covariance, selection, header.descriptor));
   }
   writer.finish();
-  MapWriter::discard_spools(output.work());
+  MapWriter::discard_append_files(output.work());
   output.commit();
 }
 

@@ -19,9 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSpoolFolder = "spool";
-constexpr std::array<const char*, MapWriterState::kAppendFiles> kSpoolNames{"points", "sightings", "table",
-                                                                            "poses", "keyframes"};
+constexpr const char* kAppendFolder = "spool";
+constexpr std::array<const char*, MapWriterState::kAppendFiles> kAppendNames{"points", "sightings", "table",
+                                                                             "poses", "keyframes"};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -79,7 +79,7 @@ MapWriterState MapWriterState::get(BinaryReader& reader) {
 
 MapWriter::MapWriter(const fs::path& folder, const MapHeader& header) : folder_(folder), header_(header) {
   require(is_known_descriptor(header.descriptor.name), "a map's descriptor is one of descriptor_names()");
-  open_spools(nullptr);
+  open_append_files(nullptr);
   remove_frames_from(0);
 }
 
@@ -91,17 +91,17 @@ MapWriter::MapWriter(const fs::path& folder, const MapHeader& header, const MapW
       features_(state.features),
       observations_(state.observations) {
   require(is_known_descriptor(header.descriptor.name), "a map's descriptor is one of descriptor_names()");
-  open_spools(&state);
+  open_append_files(&state);
   remove_frames_from(state.frames);
 }
 
 MapWriter::~MapWriter() = default;
 
-void MapWriter::open_spools(const MapWriterState* state) {
-  make_folder(folder_ / kSpoolFolder);
+void MapWriter::open_append_files(const MapWriterState* state) {
+  make_folder(folder_ / kAppendFolder);
   make_folder(folder_ / "frames");
   for (std::size_t i = 0; i < append_files_.size(); ++i) {
-    const fs::path path = folder_ / kSpoolFolder / kSpoolNames[i];
+    const fs::path path = folder_ / kAppendFolder / kAppendNames[i];
     append_files_[i] = state == nullptr ? std::make_unique<AppendFile>(path)
                                         : std::make_unique<AppendFile>(path, state->append_files[i]);
   }
@@ -156,19 +156,19 @@ void MapWriter::add_landmark(const FinishedLandmark& landmark) {
 MapWriterState MapWriter::save() {
   for (const fs::path& frame : unsaved_) sync_to_disk(frame);
   unsaved_.clear();
-  for (const char* name : {"frames", kSpoolFolder}) sync_to_disk(folder_ / name);
+  for (const char* name : {"frames", kAppendFolder}) sync_to_disk(folder_ / name);
   MapWriterState state{{}, frames_, landmarks_, features_, observations_};
   for (std::size_t i = 0; i < append_files_.size(); ++i) state.append_files[i] = append_files_[i]->sync();
   return state;
 }
 
-void MapWriter::write_binary(const char* name, const BinaryWriter& begin, Part component, MapInfo& info) {
+void MapWriter::write_binary(const char* name, const BinaryWriter& begin, Part part, MapInfo& info) {
   BinaryFileWriter file(folder_ / name, begin);
-  append_file(component).read([&](std::string_view piece) { file.write(piece); });
+  append_file(part).read([&](std::string_view piece) { file.write(piece); });
   info.checksums[name] = file.finish();
 }
 
-void MapWriter::write_text(const char* name, std::string_view begin, Part component, MapInfo& info) {
+void MapWriter::write_text(const char* name, std::string_view begin, Part part, MapInfo& info) {
   AtomicFile file(folder_ / name);
   Crc32 checksum;
   const auto write = [&](std::string_view piece) {
@@ -176,7 +176,7 @@ void MapWriter::write_text(const char* name, std::string_view begin, Part compon
     checksum.add(piece);
   };
   write(begin);
-  append_file(component).read(write);
+  append_file(part).read(write);
   file.commit();
   info.checksums[name] = checksum.value();
 }
@@ -204,14 +204,14 @@ void MapWriter::finish() {
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);
-  info.checksums[kPlaceFile] = write_place_file(folder_, info, folder_ / kSpoolFolder);
+  info.checksums[kPlaceFile] = write_place_file(folder_, info, folder_ / kAppendFolder);
   write_info(info);  // last: it says that all others are there
 }
 
-void MapWriter::discard_spools(const fs::path& folder) {
+void MapWriter::discard_append_files(const fs::path& folder) {
   std::error_code error;
-  fs::remove_all(folder / kSpoolFolder, error);
-  if (error) fail_writing(folder / kSpoolFolder, "remove the folder", error.value());
+  fs::remove_all(folder / kAppendFolder, error);
+  if (error) fail_writing(folder / kAppendFolder, "remove the folder", error.value());
 }
 
 }  // namespace cairn

@@ -71,20 +71,19 @@ class MapWriter {
   [[nodiscard]] MapWriterState save();
 
   /// Puts the files of the map together. To be called last, with at least one frame. Its working files stay
-  /// in the folder, so that a crash during the call can be resumed as well; discard_spools removes them.
+  /// in the folder, so that a crash during the call can be resumed as well; discard_append_files removes
+  /// them.
   void finish();
   /// Removes the working files from the folder of a map that is finished.
-  static void discard_spools(const std::filesystem::path& folder);
+  static void discard_append_files(const std::filesystem::path& folder);
 
  private:
   enum class Part { points, observations, table, poses, keyframes };
-  [[nodiscard]] AppendFile& append_file(Part component) {
-    return *append_files_[static_cast<std::size_t>(component)];
-  }
-  void open_spools(const MapWriterState* state);
+  [[nodiscard]] AppendFile& append_file(Part part) { return *append_files_[static_cast<std::size_t>(part)]; }
+  void open_append_files(const MapWriterState* state);
   void remove_frames_from(std::int32_t first) const;
-  void write_binary(const char* name, const BinaryWriter& begin, Part component, MapInfo& info);
-  void write_text(const char* name, std::string_view begin, Part component, MapInfo& info);
+  void write_binary(const char* name, const BinaryWriter& begin, Part part, MapInfo& info);
+  void write_text(const char* name, std::string_view begin, Part part, MapInfo& info);
   void write_info(const MapInfo& info);
 
   std::filesystem::path folder_;

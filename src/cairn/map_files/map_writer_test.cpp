@@ -102,7 +102,7 @@ void write_whole(const fs::path& folder) {
   MapWriter writer(folder, header());
   for (const Step& step : steps()) step(writer);
   writer.finish();
-  MapWriter::discard_spools(folder);
+  MapWriter::discard_append_files(folder);
 }
 
 /// Saves before step `saved`, is gone before step `killed`, and goes on from what was saved.
@@ -122,7 +122,7 @@ void write_with_crash(const fs::path& folder, std::size_t saved, std::size_t kil
   MapWriter writer(folder, header(), *state);
   for (std::size_t i = saved; i < all.size(); ++i) all[i](writer);
   writer.finish();
-  MapWriter::discard_spools(folder);
+  MapWriter::discard_append_files(folder);
 }
 
 TEST(MapWriter, a_crash_at_any_step_changes_nothing) {
@@ -159,7 +159,7 @@ TEST(MapWriter, half_written_frames_of_a_crash_are_gone) {
     writer.add_landmark(only);
   }
   writer.finish();
-  MapWriter::discard_spools(folder.path() / "map");
+  MapWriter::discard_append_files(folder.path() / "map");
   const Map map = read_map(folder.path() / "map");
   EXPECT_EQ(map.keyframes().size(), 1U);
   EXPECT_EQ(contents_of(folder.path() / "map").size(), 7U);

@@ -41,7 +41,7 @@ struct Places {
       writer.add_landmark(landmark(look, observations, random));
     }
     writer.finish();
-    MapWriter::discard_spools(folder);
+    MapWriter::discard_append_files(folder);
   }
 
   static FinishedLandmark landmark(const std::uint8_t* look, std::int32_t observations, Random& random) {

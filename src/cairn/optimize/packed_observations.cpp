@@ -36,7 +36,7 @@ void PackedObservations::pack(const Rig& rig, std::span<const PlacedCamera> came
     in_range = in_range && static_cast<std::uint32_t>(observation.camera) < cameras.size();
     usable = usable && is_usable(observation.seen);
   }
-  require(in_range, "a sighting is by a camera");
+  require(in_range, "an observation is by a camera");
   require(usable, "pixels are finite and sigmas above 0");
   if (all.empty()) return;
   origin_in_world_ = cameras[static_cast<std::size_t>(all[0].camera)].centre_in_world;
@@ -63,7 +63,7 @@ void PackedObservations::put(const Rig& rig, const PlacedCamera& camera, const O
 }
 
 void PackedObservations::drop(int slot) {
-  require(slot >= 0 && slot < count_, "a slot holds a sighting");
+  require(slot >= 0 && slot < count_, "a slot holds an observation");
   --count_;
   if (slot != count_) move(count_, slot);
   if (count_ > 0) fill_up();

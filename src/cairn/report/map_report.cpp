@@ -36,11 +36,11 @@ void add_counts(const MapStatistics& figures, TextBuilder& text) {
   const MapInfo& info = figures.info;
   text.add("keyframes    {}, {:.0f} features each\n", info.keyframes.size(),
            ratio(info.features, info.keyframes.size()));
-  text.add("parts        {}", figures.component_keyframes.size());
+  text.add("components   {}", figures.component_keyframes.size());
   if (figures.component_keyframes.size() > 1)
     text.add(", of {} keyframes", fmt::join(component_sizes(figures), ", "));
   text.add("\nlandmarks    {}\n", info.landmarks);
-  text.add("sightings    {}, {:.2f} per landmark, {} at most\n", info.observations,
+  text.add("observations {}, {:.2f} per landmark, {} at most\n", info.observations,
            ratio(info.observations, info.landmarks), figures.most_observations);
 }
 

@@ -30,9 +30,9 @@ TEST(MapReport, tells_counts_header_and_indicators) {
   EXPECT_EQ(format_map_text("demo/map", small_map()),
             R"(map          demo/map
 keyframes    5, 800 features each
-parts        2, of 3, 2 keyframes
+components   2, of 3, 2 keyframes
 landmarks    2
-sightings    5, 2.50 per landmark, 3 at most
+observations 5, 2.50 per landmark, 3 at most
 descriptors  ORB (Hamming, 32 bytes)
 camera       fx 500 fy 510 cx 319.5 cy 239.5 px, baseline 0.075 m
 images       640 x 480 pixels

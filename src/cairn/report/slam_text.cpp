@@ -50,7 +50,7 @@ void add_map(const SlamResult& result, TextBuilder& text) {
   text.add("landmarks    {}\n", result.map.landmark_ids().size());
   text.add("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
            loops.closed, loops.joined, loops.rejected + loops.unconfirmed, loops.tried);
-  if (loops.components_joined > 0) text.add("parts        {} joined\n", loops.components_joined);
+  if (loops.components_joined > 0) text.add("components   {} joined\n", loops.components_joined);
 }
 
 void add_files(const SlamSummary& summary, TextBuilder& text) {

@@ -9,7 +9,7 @@ std::int64_t parse_asl_stamp(const TextFile& file, const TextLine& line, const s
   std::int64_t stamp_ns = 0;
   if (!parse_integer(line.fields[0], stamp_ns)) {
     file.fail(line, "a time stamp in whole nanoseconds", fmt::format("'{}'", line.fields[0]),
-              "Mend or delete the line.");
+              "Correct or delete the line.");
   }
   if (before != nullptr && stamp_ns <= *before) {
     file.fail(line, fmt::format("a time stamp after {}", *before), fmt::format("{}", stamp_ns),

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 void check_options(const GivenPosesOptions& options) {
   constexpr double kLargest = 9e9;  // seconds; the stamps' own range
   const auto check = [](bool holds, const char* name, const char* expected, double found) {
-    if (!holds) throw InputError({name, 0, expected, fmt::format("{}", found), "Mend the value."});
+    if (!holds) throw InputError({name, 0, expected, fmt::format("{}", found), "Correct the value."});
   };
   check(std::abs(options.time_offset_s) <= kLargest, "time_offset_s", "seconds from -9e9 to 9e9",
         options.time_offset_s);

@@ -172,7 +172,8 @@ TEST_F(GivenPosesTest, broken_files_are_refused) {
       {"77 0 0 0 0 0 0 1\n",
        ": expected poses of the sequence's frame numbers, found none.\n  Check that the poses belong to this "
        "sequence."},
-      {"1 0 0 0\n", ":1: expected 8 values (t tx ty tz qx qy qz qw), found 4.\n  Mend or delete the line."},
+      {"1 0 0 0\n",
+       ":1: expected 8 values (t tx ty tz qx qy qz qw), found 4.\n  Correct or delete the line."},
       {"",
        ": expected poses, one a line: t tx ty tz qx qy qz qw, found none.\n  Check that this is the right "
        "file."},
@@ -181,7 +182,7 @@ TEST_F(GivenPosesTest, broken_files_are_refused) {
        "poses "
        "with time stamps (TUM format)."},
       {"1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0\n",
-       ":2: expected 12 values (3x4 world_from_camera by rows), found 4.\n  Mend or delete the line."},
+       ":2: expected 12 values (3x4 world_from_camera by rows), found 4.\n  Correct or delete the line."},
       {"1,2,3\n",
        ":1: expected 8 values (stamp, px, py, pz, qw, qx, qy, qz, ...), or a first line that names the "
        "columns, found 3.\n  Add a line with the names of the columns (docs/poses.md)."},
@@ -232,22 +233,22 @@ TEST_F(GivenPosesTest, wrong_options_are_refused) {
     return message_of([&] { return read_given_poses(sequence, options); });
   };
   EXPECT_EQ(message(with(path, -1)),
-            "max_gap_s: expected seconds from 0 to 9e9, found -1.\n  Mend the value.");
+            "max_gap_s: expected seconds from 0 to 9e9, found -1.\n  Correct the value.");
   EXPECT_EQ(message(with(path, NAN)),
-            "max_gap_s: expected seconds from 0 to 9e9, found nan.\n  Mend the value.");
+            "max_gap_s: expected seconds from 0 to 9e9, found nan.\n  Correct the value.");
   EXPECT_EQ(message(with(path, 0.1, 1e10)),
-            "time_offset_s: expected seconds from -9e9 to 9e9, found 10000000000.\n  Mend the value.");
+            "time_offset_s: expected seconds from -9e9 to 9e9, found 10000000000.\n  Correct the value.");
   EXPECT_EQ(message(with(numbers, 0.1, 1)),
             "time_offset_s: expected 0, as these poses belong to frames by their numbers, found 1.\n  Leave "
             "it out.");
   const auto late = write("late.txt", "8999999999 0 0 0 0 0 0 1\n8999999999.5 0 0 0 0 0 0 1\n");
   EXPECT_EQ(message(with(late, 0.1, 9e9)),
             "time_offset_s: expected an offset that leaves the stamps within 292 years of 1970, found "
-            "9000000000.\n  Mend the value.");
+            "9000000000.\n  Correct the value.");
   GivenPosesOptions options = with(path);
   options.origin = GeodeticOrigin{91, 0, 0};
   EXPECT_EQ(message(options),
-            "origin: expected a latitude from -90 to 90 degrees, found 91.\n  Mend the value.");
+            "origin: expected a latitude from -90 to 90 degrees, found 91.\n  Correct the value.");
 }
 
 /// A pose for each image: interpolation changes nothing.

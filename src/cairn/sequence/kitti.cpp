@@ -136,7 +136,7 @@ std::vector<std::int64_t> read_times(const fs::path& path) {
     file.expect_fields(line, 1, "seconds");
     std::int64_t stamp_ns = 0;
     if (!parse_stamp(line.fields[0], stamp_ns)) {
-      file.fail(line, "a time in seconds", fmt::format("'{}'", line.fields[0]), "Mend the line.");
+      file.fail(line, "a time in seconds", fmt::format("'{}'", line.fields[0]), "Correct the line.");
     }
     if (!stamps.empty() && stamp_ns <= stamps.back()) {
       file.fail(line, fmt::format("a time after {}", format_stamp(stamps.back())), format_stamp(stamp_ns),

@@ -52,7 +52,7 @@ std::int64_t parse_date(const TextFile& file, const TextLine& line) {
   const auto days = parse_days(line.fields[0]), time_ns = parse_time_of_day(line.fields[1]);
   if (days && time_ns) return *days * kDayNs + *time_ns;
   file.fail(line, "a date and a time, 2011-09-26 13:02:25.594360375",
-            fmt::format("'{} {}'", line.fields[0], line.fields[1]), "Mend the line.");
+            fmt::format("'{} {}'", line.fields[0], line.fields[1]), "Correct the line.");
 }
 
 /// A value of a packet and what it may be.
@@ -92,7 +92,7 @@ std::optional<RecordedPose> read_packet(const fs::path& path) {
   if (file.lines().size() != 1) {
     throw InputError({path.string(), 0, "one line with 30 values",
                       fmt::format("{} lines", file.lines().size()),
-                      "Mend the packet, or leave it and its time out."});
+                      "Correct the packet, or leave it and its time out."});
   }
   const TextLine& line = file.lines().front();
   file.expect_fields(line, 30, "lat lon alt roll pitch yaw ... pos_accuracy ... orimode");

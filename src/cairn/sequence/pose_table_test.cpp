@@ -173,14 +173,14 @@ TEST_F(PoseTableTest, broken_headers_are_refused) {
 TEST_F(PoseTableTest, broken_rows_are_refused) {
   const std::string local = "time_s,east,north,up,roll,pitch,heading,std_east,std_north,std_up\n";
   const std::string geodetic = "time_ns,lat,lon,height,roll,pitch,heading\n";
-  const char *const mend = "Mend or delete the line.", *const correct = "Correct or delete the line.",
+  const char *const correct = "Correct or delete the line.",
                     *const names = "Correct the names of the columns, or the line.",
                     *const units = "Check the order and the units of the columns.";
   const BrokenTable cases[] = {
       {local + "0,1,2,3\n", 2, "10 values (time_s, east, north", "4", names},
       {local + "x,1,2,3,4,5,6,7,8,9\n", 2, "a time stamp in seconds", "'x'", correct},
-      {local + "0,1,2,up,4,5,6,7,8,9\n", 2, "a number for up", "'up'", mend},
-      {local + "0,1,2,3,4,5,6,7,nan,9\n", 2, "a number for std_north", "'nan'", mend},
+      {local + "0,1,2,up,4,5,6,7,8,9\n", 2, "a number for up", "'up'", correct},
+      {local + "0,1,2,3,4,5,6,7,nan,9\n", 2, "a number for std_north", "'nan'", correct},
       {local + "0,1e13,0,0,0,0,0,0,0,0\n", 2, "east from -1e+12 to 1e+12 m", "1e+13", units},
       {local + "0,0,0,0,0,91,0,0,0,0\n", 2, "pitch from -90 to 90 degrees", "91", units},
       {local + "0,0,0,0,0,0,361,0,0,0\n", 2, "heading from -360 to 360 degrees", "361", units},
@@ -191,7 +191,7 @@ TEST_F(PoseTableTest, broken_rows_are_refused) {
       {geodetic + "5,4900,8,0,0,0,0\n", 2, "latitude from -90 to 90 degrees", "4900", units},
       {geodetic + "5,49,361,0,0,0,0\n", 2, "longitude from -180 to 360 degrees", "361", units},
       {"frame,east,north,up,roll,pitch,heading\n0.5,0,0,0,0,0,0\n", 2, "a whole number for frame", "'0.5'",
-       mend},
+       correct},
       {"frame,east,north,up,roll,pitch,heading\n2,0,0,0,0,0,0\n1,0,0,0,0,0,0\n", 3, "a frame number after 2",
        "1", "Sort the file by number."},
   };

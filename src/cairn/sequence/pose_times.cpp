@@ -119,7 +119,7 @@ std::int64_t shift_stamps(const Sequence& sequence, const GivenPosesOptions& opt
   for (RecordedPose& pose : recorded.poses) {
     if (!__builtin_add_overflow(pose.key, offset_ns, &pose.key)) continue;
     throw InputError({"time_offset_s", 0, "an offset that leaves the stamps within 292 years of 1970",
-                      fmt::format("{}", options.time_offset_s), "Mend the value."});
+                      fmt::format("{}", options.time_offset_s), "Correct the value."});
   }
   if (recorded.first_key) recorded.first_key = saturated_sum(*recorded.first_key, offset_ns);
   if (by_starts)

@@ -5,7 +5,7 @@
 namespace cairn {
 namespace {
 
-constexpr const char* kRemedy = "Mend the value.";
+constexpr const char* kRemedy = "Correct the value.";
 
 void visit(CameraParameters& camera, ParameterVisitor& visitor) {
   visitor.parameter({"camera.fx", above(0, "pixels"),

@@ -121,10 +121,11 @@ TEST_F(SequenceTest, parameters_alone_make_a_calibration) {
 TEST_F(SequenceTest, parameters_that_make_no_camera_are_refused) {
   SequenceOptions options;
   options.camera_parameters.fx = 0;
-  EXPECT_EQ(refusal(options), "camera.fx: expected pixels above 0, found 0.\n  Mend the value.");
+  EXPECT_EQ(refusal(options), "camera.fx: expected pixels above 0, found 0.\n  Correct the value.");
   options.camera_parameters = {};
   options.camera_parameters.scale = -5;
-  EXPECT_EQ(refusal(options), "camera.scale: expected units per metre above 0, found -5.\n  Mend the value.");
+  EXPECT_EQ(refusal(options),
+            "camera.scale: expected units per metre above 0, found -5.\n  Correct the value.");
 }
 
 TEST_F(SequenceTest, no_calibration_is_refused) {

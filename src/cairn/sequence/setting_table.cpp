@@ -161,7 +161,7 @@ std::string SettingTable::apply(const Setting& setting) const {
   if (entry == nullptr) fail_unknown(setting);
   if (!entry->set(setting.value))
     throw InputError({setting.source, setting.line, fmt::format("{} for '{}'", entry->expected, setting.key),
-                      fmt::format("'{}'", setting.value), "Mend the value."});
+                      fmt::format("'{}'", setting.value), "Correct the value."});
   if (entry->row.name == setting.key) return "";
   return fmt::format("{}: '{}' is now called '{}'; both are accepted.", place_of(setting), setting.key,
                      entry->row.name);

@@ -56,7 +56,8 @@ std::vector<Setting> read_lines(std::string_view text, const std::string& source
     if (line.empty()) continue;
     const auto setting = split(line, source, number);
     if (!setting)
-      throw InputError({source, number, "key=value", fmt::format("'{}'", line), "Mend or delete the line."});
+      throw InputError(
+          {source, number, "key=value", fmt::format("'{}'", line), "Correct or delete the line."});
     settings.push_back(*setting);
   }
   return settings;
@@ -67,7 +68,8 @@ std::vector<Setting> read_yaml(const std::string& text, const std::string& sourc
   try {
     root = YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw InputError({source, error.mark.line + 1, "YAML, or lines key=value", error.msg, "Mend the line."});
+    throw InputError(
+        {source, error.mark.line + 1, "YAML, or lines key=value", error.msg, "Correct the line."});
   }
   if (root.IsNull()) return {};
   if (!root.IsMap())

@@ -52,7 +52,7 @@ bool is_no_number(std::string_view text) {
 std::optional<Eigen::Matrix4d> read_matrix(const TextFile& file) {
   if (file.lines().size() != 4) {
     throw InputError({file.path().string(), 0, "4 lines, a 4x4 matrix",
-                      fmt::format("{} lines", file.lines().size()), "Mend or delete the file."});
+                      fmt::format("{} lines", file.lines().size()), "Correct or delete the file."});
   }
   bool finite = true;
   Eigen::Matrix4d matrix;

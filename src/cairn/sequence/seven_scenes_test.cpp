@@ -95,13 +95,13 @@ TEST_F(SevenScenesTest, broken_poses_are_refused) {
     const char* rest;
   };
   const Case cases[] = {
-      {"", ": expected 4 lines, a 4x4 matrix, found 0 lines.\n  Mend or delete the file."},
+      {"", ": expected 4 lines, a 4x4 matrix, found 0 lines.\n  Correct or delete the file."},
       {"1 0 0 0\n0 1 0 0\n0 0 1 0\n",
-       ": expected 4 lines, a 4x4 matrix, found 3 lines.\n  Mend or delete the file."},
+       ": expected 4 lines, a 4x4 matrix, found 3 lines.\n  Correct or delete the file."},
       {"1 0 0 0\n0 1 0\n0 0 1 0\n0 0 0 1\n",
-       ":2: expected 4 values (a row of a 4x4 matrix), found 3.\n  Mend or delete the line."},
+       ":2: expected 4 values (a row of a 4x4 matrix), found 3.\n  Correct or delete the line."},
       {"1 0 0 0\n0 1 0 0\n0 0 one 0\n0 0 0 1\n",
-       ":3: expected a number for the matrix, found 'one'.\n  Mend or delete the line."},
+       ":3: expected a number for the matrix, found 'one'.\n  Correct or delete the line."},
       {"2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n",
        ":1: expected a rotation in the first three rows and columns, found a matrix with determinant 8, 5.2 "
        "from "

@@ -29,7 +29,7 @@ StampedPose parse_tum_pose(const TextFile& file, const TextLine& line, std::size
   StampedPose pose;
   if (!parse_stamp_in(unit, line.fields.at(first), pose.stamp_ns)) {
     file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[first]),
-              "Mend or delete the line.");
+              "Correct or delete the line.");
   }
   const auto place = [&](std::size_t i, std::string_view name) {
     return parse_coordinate(file, line, first + i, name);

@@ -66,7 +66,7 @@ TEST_F(TrajectoryTest, broken_lines_are_refused_by_number) {
     const char* found;
     const char* remedy;
   };
-  const char* const mend = "Mend or delete the line.";
+  const char* const mend = "Correct or delete the line.";
   const char* const sort = "Sort the file by time.";
   const char* const order = "Check the order of the columns: t tx ty tz qx qy qz qw.";
   const Case cases[] = {

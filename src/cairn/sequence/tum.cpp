@@ -27,7 +27,7 @@ std::int64_t stamp_in(const TextFile& file, const TextLine& line, std::size_t fi
   std::int64_t stamp_ns = 0;
   if (!parse_stamp(line.fields[field], stamp_ns)) {
     file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[field]),
-              "Mend or delete the line.");
+              "Correct or delete the line.");
   }
   return stamp_ns;
 }

@@ -121,7 +121,7 @@ TEST_F(TumTest, broken_lists_are_refused_by_line) {
     const char* rest;
   };
   const char* const sort = ".\n  Sort the file by time and remove double stamps.";
-  const char* const mend = ".\n  Mend or delete the line.";
+  const char* const mend = ".\n  Correct or delete the line.";
   const Case cases[] = {
       {"rgb.txt", "1 a.png\n0.5 b.png\n", ":2: expected a time stamp after 1.000000000, found 0.500000000"},
       {"depth.txt", "1 a.png\n1 b.png\n", ":2: expected a time stamp after 1.000000000, found 1.000000000"},

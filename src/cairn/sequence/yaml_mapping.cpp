@@ -18,7 +18,7 @@ YAML::Node load_yaml(const std::filesystem::path& path) {
   try {
     root = YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    throw InputError({path.string(), error.mark.line + 1, "YAML", error.msg, "Mend the line."});
+    throw InputError({path.string(), error.mark.line + 1, "YAML", error.msg, "Correct the line."});
   }
   if (!root.IsNull()) return root;
   throw InputError({path.string(), 0, "a calibration", "an empty file", "See the README, \"Calibration\"."});
@@ -78,7 +78,7 @@ YamlMapping YamlMapping::sub(const std::string& key, const std::vector<std::stri
 
 void YamlMapping::check(bool holds, const std::string& key, const std::string& expected) const {
   const YAML::Node value = node_[key];
-  if (!holds) fail(value, fmt::format("{} for '{}'", expected, key), describe(value), "Mend the value.");
+  if (!holds) fail(value, fmt::format("{} for '{}'", expected, key), describe(value), "Correct the value.");
 }
 
 std::string YamlMapping::describe(const YAML::Node& value) {

@@ -37,7 +37,7 @@ class YamlMapping {
     try {
       return value.as<T>();
     } catch (const YAML::Exception&) {
-      fail(value, fmt::format("{} for '{}'", kind, key), describe(value), "Mend the value.");
+      fail(value, fmt::format("{} for '{}'", kind, key), describe(value), "Correct the value.");
     }
   }
   [[nodiscard]] double number(const std::string& key) const;    ///< finite

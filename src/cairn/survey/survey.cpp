@@ -123,7 +123,7 @@ class SurveyPipeline {
     require_frames();
     surveyor_->finish(executor_);
     writer_->finish();
-    MapWriter::discard_spools(folder_);
+    MapWriter::discard_append_files(folder_);
     remove_checkpoint(folder_);
   }
 

@@ -84,7 +84,7 @@ void StreetWorld::write_map(const std::filesystem::path& folder) const {
   for (; finished < points_.size(); ++finished)
     if (ids[finished].valid()) writer.add_landmark(landmark(finished, window, random));
   writer.finish();
-  MapWriter::discard_spools(folder);
+  MapWriter::discard_append_files(folder);
 }
 
 WorldFromCamera StreetWorld::keyframe_pose(int k) const {
