@@ -33,8 +33,9 @@ TEST(Pcd, width_times_height_counts_where_points_does_not) {
   const std::string three = "1 2 3\n4 5 6\n7 8 9\n";
   EXPECT_EQ(read_text(std::string(kXyz) + "WIDTH 1\nHEIGHT 2\nDATA ascii\n" + three).points,
             (std::vector<CloudPoint>{{1, 2, 3}, {4, 5, 6}}));
-  for (const std::string counts : {"WIDTH 9\nHEIGHT 9\nPOINTS 1\n", "POINTS 1\nWIDTH 9\nHEIGHT 9\n"})
-    EXPECT_EQ(read_text(kXyz + counts + "DATA ascii\n" + three).points, (std::vector<CloudPoint>{{1, 2, 3}}));
+  for (const char* const counts : {"WIDTH 9\nHEIGHT 9\nPOINTS 1\n", "POINTS 1\nWIDTH 9\nHEIGHT 9\n"})
+    EXPECT_EQ(read_text(std::string(kXyz).append(counts).append("DATA ascii\n").append(three)).points,
+              (std::vector<CloudPoint>{{1, 2, 3}}));
 }
 
 TEST(Pcd, fields_are_of_four_bytes_unless_sizes_are_given) {

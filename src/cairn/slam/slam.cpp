@@ -82,7 +82,7 @@ class SlamPipeline {
  private:
   TrackingResult track(ObservedFrame&& frame) {
     const Stopwatch watch;
-    const TrackingResult track = tracker_.track(std::move(frame));
+    TrackingResult track = tracker_.track(std::move(frame));
     result_.times.tracking.push_back(watch.seconds());
     if (tracker_.lost()) return track;
     mapper_.found();
