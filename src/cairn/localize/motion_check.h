@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cairn/localize/localizer.h"
+#include "cairn/sequence/trajectory.h"
 
 namespace cairn {
 
@@ -21,10 +22,6 @@ class MotionCheck {
   void check(std::int64_t stamp_ns, Localization& found);
 
  private:
-  struct StampedPose {
-    std::int64_t stamp_ns = 0;
-    WorldFromCamera world_from_camera;
-  };
   [[nodiscard]] bool fits(const StampedPose& now) const;
 
   TrustOptions options_;

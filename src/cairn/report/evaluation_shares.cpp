@@ -53,7 +53,7 @@ std::string format_percentiles(const EvaluationReport& report) {
   std::vector<TableRow> rows{names, units};
   for (const EvaluatedTrajectory& evaluated : report.estimates)
     rows.push_back(percentiles_row(report, evaluated, unit));
-  return "\n" + format_table(rows);
+  return fmt::format("\n{}", format_table(rows));
 }
 
 TableRow within_row(const EvaluationReport& report, const EvaluatedTrajectory& evaluated,
@@ -79,7 +79,7 @@ std::string format_within(const EvaluationReport& report, const PoseTolerance& t
   std::vector<TableRow> rows{names};
   for (const EvaluatedTrajectory& evaluated : report.estimates)
     rows.push_back(within_row(report, evaluated, tolerance));
-  return "\n" + format_table(rows);
+  return fmt::format("\n{}", format_table(rows));
 }
 
 }  // namespace

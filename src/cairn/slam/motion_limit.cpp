@@ -39,18 +39,18 @@ bool KnownPoses::allow(const Map& map, KeyframeId reference, const Rigid3& world
 
 bool can_be_joined(const Map& map, std::int32_t component_a, std::int32_t component_b, const Rigid3& a_from_b,
                    const SlamOptions& options) {
-  struct StampedPose {
+  struct PoseInA {
     std::int64_t stamp_ns;
     Rigid3 a_from_camera;
   };
-  std::optional<StampedPose> last_in_a, last_in_b;
+  std::optional<PoseInA> last_in_a, last_in_b;
   for (const KeyframeId id : map.keyframe_ids()) {
     const std::int32_t component = map.component_of(id);
     const ObservedFrame& observed = map[id].observed;
     if ((component != component_a && component != component_b) || !observed.frame.valid())
       continue;  // or of an earlier recording
     const Rigid3 pose = map.world_from_camera(id);
-    const StampedPose here{observed.stamp_ns, component == component_a ? pose : a_from_b * pose};
+    const PoseInA here{observed.stamp_ns, component == component_a ? pose : a_from_b * pose};
     const auto& before = component == component_a ? last_in_b : last_in_a;
     if (before && !is_plausible_motion(before->a_from_camera.inverse() * here.a_from_camera, before->stamp_ns,
                                        here.stamp_ns, options))
