@@ -193,7 +193,7 @@ def check_kit(path, room):
         complaint = None
         if not own:
             complaint = complaint_about_library(library, room, True, path.suffix == ".h")
-        elif not is_above(next(part for part in own.split("/")[1:] if part != KIT), room):
+        elif not is_above(next((part for part in own.split("/")[1:] if part != KIT), None), room):
             complaint = f"the kit of '{room}' may not include \"{own}\""
         if complaint:
             complaints.append(f"{path}:{number}: {complaint}")

@@ -3,6 +3,7 @@
 """Shows that each check of this folder finds what it is there to find: a good sample passes, a bad one fails."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,10 @@ from pathlib import Path
 from sources import ROOT
 
 TESTS = Path(__file__).resolve().parent
+
+
+# That of the build (tests/CMakeLists.txt); by hand whichever there is.
+COMPILER = os.environ.get("CXX") or next(filter(None, map(shutil.which, ("clang++-16", "g++", "c++"))))
 
 
 class Sample(unittest.TestCase):
@@ -236,7 +241,7 @@ class Headers(Sample):
                    f"include({ROOT}/cmake/precompiled.cmake)\ninclude({ROOT}/cmake/rooms.cmake)\n"
                    "add_subdirectory(src/room)\n")
         build = self.root / "build"
-        code, output = self.run_command("cmake", "-G", "Ninja", "-S", self.root, "-B", build)
+        code, output = self.run_command("cmake", "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={COMPILER}", "-S", self.root, "-B", build)
         self.assertEqual(code, 0, output)
         return self.run_command("cmake", "--build", build, "--target", "cairn_headers")
 
@@ -255,7 +260,7 @@ class Kernels(Sample):
         self.write("a.cpp", source + "\n")
         place = self.root / "build/cairn_room_avx2.dir/kernels"
         place.mkdir(parents=True)
-        code, output = self.run_command("g++", "-std=c++20", "-c", self.root / "a.cpp", "-o", place / "a.cpp.o")
+        code, output = self.run_command(COMPILER, "-std=c++20", "-c", self.root / "a.cpp", "-o", place / "a.cpp.o")
         self.assertEqual(code, 0, output)
         return self.run_command(sys.executable, TESTS / "check_kernels.py", "--build", self.root / "build")
 

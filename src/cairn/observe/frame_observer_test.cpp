@@ -28,7 +28,7 @@ GrayImage blocks(int shift) {
   return image;
 }
 
-class FrontendTest : public testing::Test, protected RecordingFolder {
+class FrameObserverTest : public testing::Test, protected RecordingFolder {
  protected:
   /// What is observed of the first frame at half its size.
   [[nodiscard]] std::vector<Observation> observed_at_half_size() const {
@@ -52,7 +52,7 @@ class FrontendTest : public testing::Test, protected RecordingFolder {
   }
 };
 
-TEST_F(FrontendTest, depth_is_resized_with_the_image) {
+TEST_F(FrameObserverTest, depth_is_resized_with_the_image) {
   constexpr double kDepth = 2;
   put("camera.yaml", camera_yaml() + "depth: {scale: 1000}\n");
   put_image("rgb/1.png", blocks(0));
@@ -64,7 +64,7 @@ TEST_F(FrontendTest, depth_is_resized_with_the_image) {
     EXPECT_NEAR(observation.d, kFocal / 2 * DepthNoise().baseline / kDepth, 1e-6);
 }
 
-TEST_F(FrontendTest, both_images_of_a_pair_are_resized) {
+TEST_F(FrameObserverTest, both_images_of_a_pair_are_resized) {
   constexpr int kDisparity = 40;
   put("camera.yaml", camera_yaml() + "right: {baseline: 0.5}\n");
   put_image("image_0/000000.png", blocks(0));

@@ -56,7 +56,6 @@ class SlamPipeline {
         closer_(options, executor, indexed_) {}
 
   void process(ObservedFrame&& frame) {
-    if (mapper_.apply_adjustment_if_due()) tracker_.follow_map();
     TrackingResult track = this->track(std::move(frame));
     if (tracker_.lost()) {
       begin_component(track);
@@ -82,6 +81,7 @@ class SlamPipeline {
  private:
   TrackingResult track(ObservedFrame&& frame) {
     const Stopwatch watch;
+    if (mapper_.apply_adjustment_if_due()) tracker_.follow_map();
     TrackingResult track = tracker_.track(std::move(frame));
     result_.times.tracking.push_back(watch.seconds());
     if (tracker_.lost()) return track;
