@@ -57,8 +57,11 @@ TEST(CloudSurface, a_ball_is_not_flat) {
 
 TEST(CloudSurface, what_no_camera_looked_at_is_not_seen) {
   const Rigid3 looks_away{Eigen::Quaterniond::Identity(), {0, 0, 3}};
-  for (const std::vector<Rigid3>& path : {std::vector<Rigid3>{}, {looks_away}})
-    for (const SurfaceCell& cell : CloudSurface(plane({0, 0, 1}), path, 0.1).cells()) EXPECT_FALSE(cell.seen);
+  for (const std::vector<Rigid3>& path : {std::vector<Rigid3>{}, {looks_away}}) {
+    const CloudSurface surface(plane({0, 0, 1}), path, 0.1);
+    ASSERT_FALSE(surface.cells().empty());
+    for (const SurfaceCell& cell : surface.cells()) EXPECT_FALSE(cell.seen);
+  }
 }
 
 TEST(CloudSurface, the_cell_of_a_point_holds_it) {
