@@ -86,8 +86,8 @@ Honesty honesty_of(const PoseEstimate& found, const PoseScene& scene, double wei
 class SlowCameraPoseHonesty : public CameraPoseProperty {};
 
 TEST_P(SlowCameraPoseHonesty, covariance_and_variance_factor_are_honest) {
-  // Least squares of all, of the same problems, has the expectation 1 for both figures, as no observation is an
-  // outlier. What chance adds to it is taken away from the estimate, too: the mean of NEES / 6 then has a
+  // Least squares of all, of the same problems, has the expectation 1 for both figures, as no observation is
+  // an outlier. What chance adds to it is taken away from the estimate, too: the mean of NEES / 6 then has a
   // standard deviation of 0.33 over the root of the number of problems, not of 0.58.
   const int problems = scene_options().uncertain ? 2000 : 4000;
   const PoseOptions least_squares = options_of(kAll, kGauss, RobustKernel::none);
