@@ -105,17 +105,7 @@ void match_by_brute_force(const Features& a, const Features& b, Input& input) {
   check_matches(match_mutual(a.descriptors, b.descriptors), a.keypoints.size(), b.keypoints.size());
 }
 
-void match_by_geometry(const Features& a, const Features& b, Input& input) {
-  Camera camera;
-  camera.width = camera.height = 160;
-  camera.fx = camera.fy = input.between(1, 500);
-  camera.cx = camera.cy = input.between(-50, 200);
-  Rigid3 motion;
-  motion.translation = {input.between(-3, 3), input.between(-3, 3), input.between(-3, 3)};
-  EpipolarMatchOptions options;
-  options.matching = options_of(input);
-  check_matches(match_along_epipolar_lines({camera, a}, {camera, b}, motion, options), a.keypoints.size(),
-                b.keypoints.size());
+void match_in_windows(const Features& a, const Features& b, Input& input) {
   std::vector<SearchWindow> places(a.keypoints.size());
   for (SearchWindow& place : places)
     place = {input.between(-100, 300), input.between(-100, 300), input.between(0, 100), 0,
@@ -154,7 +144,7 @@ void fuzz(Input input) {
   check(describe_orb(second, a.keypoints).angles_deg.size() == a.keypoints.size());
   if (a.keypoints.size() > 3000 || b.keypoints.size() > 3000) return;  // time
   match_by_brute_force(a, b, input);
-  match_by_geometry(a, b, input);
+  match_in_windows(a, b, input);
   match_left_right(first, a, second, b, input);
 }
 
