@@ -1,25 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "feature_arguments.h"
 
-#include <algorithm>
+#include <utility>
 
+#include "cairn/core/median.h"
 #include "cairn/core/stopwatch.h"
+#include "cairn/core/text.h"
 #include "cairn/image/codec.h"
 
 namespace cairn::app {
 
-namespace {
-
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
-}  // namespace
-
 std::unique_ptr<Extractor> FeatureArguments::extractor() const {
-  const bool root = lower(method) == "rootsift";
+  const bool root = lower_case(method) == "rootsift";
   return make_extractor({root ? "SIFT" : method, method, count});
 }
 
@@ -57,9 +49,7 @@ double median_ms(int repeat, const std::function<void()>& work) {
     work();
     times_ms.push_back(1e3 * watch.seconds());
   }
-  const auto middle = times_ms.begin() + static_cast<std::ptrdiff_t>(times_ms.size() / 2);
-  std::nth_element(times_ms.begin(), middle, times_ms.end());
-  return *middle;
+  return median(std::move(times_ms));
 }
 
 }  // namespace cairn::app

@@ -73,6 +73,12 @@ int compare_pieces(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
 TextFile::TextFile(const std::filesystem::path& path, Separator separator)
     : path_(path), contents_(read_file(path)) {
   std::string_view all = contents_;

@@ -9,6 +9,9 @@
 
 namespace cairn {
 
+/// Returns the text with the letters A to Z in lower case, whatever the locale.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 /// Holds one non-empty line of a text file, split into fields: views into the TextFile.
 struct TextLine {
   int number = 0;  ///< 1-based

@@ -23,6 +23,12 @@ struct NumberCase {
   double value;
 };
 
+TEST(LowerCase, changes_the_letters_of_ascii_alone) {
+  EXPECT_EQ(lower_case("AZ az_@[09"), "az az_@[09");
+  EXPECT_EQ(lower_case("\xC3\x84"), "\xC3\x84");  // a letter of two bytes
+  EXPECT_EQ(lower_case(""), "");
+}
+
 TEST(ParseNumber, takes_whole_finite_numbers_and_nothing_else) {
   const NumberCase cases[] = {
       {"1", true, 1},      {"-1.5", true, -1.5}, {"+2", true, 2},         {".5", true, 0.5},

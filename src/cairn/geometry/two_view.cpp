@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cairn/core/error.h"
+#include "cairn/core/median.h"
 #include "cairn/geometry/essential_ransac.h"
 #include "cairn/geometry/homography.h"
 
@@ -75,12 +76,6 @@ void choose_motion(const Views& views, TwoViewResult& result) {
 
 const Eigen::Matrix3d* model_of(const RansacResult<Eigen::Matrix3d>& result) {
   return result.found() ? &result.model : nullptr;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -4,25 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
+#include "cairn/core/text.h"
 #include "cairn/features/extractor.h"
 
 namespace cairn {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// Writes a value on one line, with blanks after commas and colons. Replaces bytes that are not UTF-8. A line
 /// break within a string is escaped, so that each that dump() writes stands between two values.
@@ -95,12 +89,12 @@ std::optional<std::uint32_t> MapInfo::checksum_of(const std::string& name) const
 }
 
 std::string frame_file_name(KeyframeId number, const std::string& descriptor) {
-  return fmt::format("frames/{:06}.{}", number.value, lower(descriptor));
+  return fmt::format("frames/{:06}.{}", number.value, lower_case(descriptor));
 }
 
 bool is_known_descriptor(const std::string& name) {
   return std::any_of(descriptor_names().begin(), descriptor_names().end(),
-                     [&](const std::string& known) { return lower(known) == lower(name); });
+                     [&](const std::string& known) { return lower_case(known) == lower_case(name); });
 }
 
 std::string format_map_info_begin(const MapInfo& info, std::size_t keyframes) {

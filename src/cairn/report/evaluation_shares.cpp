@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cairn/report/evaluation_text.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/text_table.h"
 #include "cairn/report/trajectory_words.h"
 
@@ -11,8 +12,7 @@ namespace cairn {
 namespace {
 
 std::string share_of(std::size_t count, std::size_t whole) {
-  return fmt::format("{:.1f} % of {}", 100.0 * static_cast<double>(count) / static_cast<double>(whole),
-                     whole);
+  return fmt::format("{:.1f} % of {}", share_percent(count, whole), whole);
 }
 
 bool is_ok(const EvaluatedTrajectory& evaluated) {

@@ -6,15 +6,12 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/text_builder.h"
 #include "cairn/report/trajectory_words.h"
 
 namespace cairn {
 namespace {
-
-double percent(std::size_t part, std::size_t whole) {
-  return 100.0 * static_cast<double>(part) / static_cast<double>(whole);
-}
 
 void add_row(const std::string& name, const ShownUnit& unit, const std::optional<ErrorStatistics>& errors,
              TextBuilder& text) {
@@ -73,8 +70,9 @@ std::string format_one(const EvaluationReport& report) {
   require(result.status == EvaluationStatus::ok, "a single estimate is aligned");
   const std::size_t pairs = result.pairs.size();
   TextBuilder text;
-  text.add("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), {}\n", pairs, percent(pairs, estimate.size()),
-           percent(pairs, report.reference.size()), describe_pairing(report));
+  text.add("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), {}\n", pairs,
+           share_percent(pairs, estimate.size()), share_percent(pairs, report.reference.size()),
+           describe_pairing(report));
   text.add("alignment  {}\n", describe_alignment(report, result));
   if (result.sim3.ate_m) text.add("scale      {:.6f} by sim3\n", result.sim3.reference_from_estimate.scale);
   text.add("\n{:<16} {:>4} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "", "", "number", "rmse", "mean",

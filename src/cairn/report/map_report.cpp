@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "cairn/report/json_pieces.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/text_builder.h"
 
 namespace cairn {
 namespace {
-
-double ratio(std::uint64_t a, std::uint64_t b) {
-  return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
-}
 
 /// Names what is told of a distribution in JSON.
 constexpr std::array<const char*, 6> kStatistics = {"min",           "percentile_5", "median",

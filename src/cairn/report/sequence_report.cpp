@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cairn/report/json_pieces.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/text_builder.h"
 #include "cairn/sequence/given_poses.h"
 
@@ -60,8 +61,7 @@ void add_association(const SequenceReport& report, TextBuilder& text) {
   const bool is_stereo = report.right_images > 0;
   text.add("association  {} of {} {} images have a {} image ({:.1f} %), largest gap {:.1f} ms (by {})\n",
            report.associated, report.color_images, is_stereo ? "left" : "colour",
-           is_stereo ? "right" : "depth",
-           100.0 * static_cast<double>(report.associated) / static_cast<double>(report.color_images),
+           is_stereo ? "right" : "depth", share_percent(report.associated, report.color_images),
            1e3 * report.max_stamp_gap_s, report.associated_by);
 }
 

@@ -26,10 +26,6 @@ FrameCounts count_frames(const SlamResult& result) {
   return counts;
 }
 
-double share_percent(std::int64_t component, std::int64_t whole) {
-  return whole > 0 ? 100.0 * static_cast<double>(component) / static_cast<double>(whole) : 0.0;
-}
-
 std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times) {
   return {{"decode", &times.decode},   {"features", &times.features}, {"tracking", &times.tracking},
           {"mapping", &times.mapping}, {"loops", &times.loops},       {"window", &times.window},

@@ -22,9 +22,6 @@ struct FrameCounts {
 /// Counts the frames of a run by what became of them.
 [[nodiscard]] FrameCounts count_frames(const SlamResult& result);
 
-/// Returns `component` of `whole` in percent; 0 of nothing.
-[[nodiscard]] double share_percent(std::int64_t component, std::int64_t whole);
-
 /// Returns the stages with their names and seconds, in the order of the data. They point into `times`.
 [[nodiscard]] std::vector<std::pair<const char*, const std::vector<double>*>> stages(const StageTimes& times);
 

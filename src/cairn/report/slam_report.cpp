@@ -8,6 +8,7 @@
 
 #include "cairn/core/text.h"
 #include "cairn/report/json_pieces.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
 
 namespace cairn {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cairn/report/landmark_picture.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
 #include "cairn/report/slam_report.h"
 #include "cairn/report/text_builder.h"

@@ -10,14 +10,11 @@
 
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/landmark_picture.h"
+#include "cairn/report/ratio.h"
 #include "cairn/report/text_builder.h"
 
 namespace cairn {
 namespace {
-
-double ratio(std::int64_t a, std::int64_t b) {
-  return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 0.0;
-}
 
 Json to_json(const PoseCheck& check) {
   return {{"verdict", to_string(check.verdict)},

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "cairn/core/text.h"
+
 namespace cairn {
 namespace {
 
@@ -107,11 +109,11 @@ bool is_unit(std::string_view text) {
 std::string plain(std::string_view text) {
   constexpr std::string_view kSeparators = " \t\r-./_%";
   std::string result;
-  for (const char c : text) {
+  for (const char c : lower_case(text)) {
     if (kSeparators.find(c) != std::string_view::npos) {
       if (!result.empty() && result.back() != '_') result += '_';
     } else {
-      result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      result += c;
     }
   }
   if (result.ends_with('_')) result.pop_back();

@@ -14,10 +14,9 @@
 namespace cairn {
 namespace {
 
-bool parse_bool(std::string text, bool& value) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  const auto is = [&](std::initializer_list<const char*> words) {
-    return std::find(words.begin(), words.end(), text) != words.end();
+bool parse_bool(std::string_view text, bool& value) {
+  const auto is = [word = lower_case(text)](std::initializer_list<const char*> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
   };
   const bool yes = is({"yes", "true", "on", "1"});
   if (!yes && !is({"no", "false", "off", "0"})) return false;

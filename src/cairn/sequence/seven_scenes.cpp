@@ -43,8 +43,7 @@ bool is_image_of(const FrameName& name, const char* kind) {
 /// NaN and infinities, as recordings have them where tracking was lost.
 bool is_no_number(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  std::string lower(text.substr(0, 3));
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string lower = lower_case(text.substr(0, 3));
   return lower == "nan" || lower == "inf";
 }
 

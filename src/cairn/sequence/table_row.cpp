@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/core/text.h"
 #include "cairn/geometry/unit_rotation.h"
 
 namespace cairn {
@@ -61,8 +62,7 @@ std::vector<std::string_view> keys_in(const TableHeader& header, const std::vect
 /// Empty, NaN or infinite.
 bool says_nothing(std::string_view text) {
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string lower = lower_case(text);
   return lower.empty() || lower == "nan" || lower == "inf" || lower == "infinity" || lower == "na" ||
          lower == "null" || lower == "none";
 }
