@@ -176,34 +176,31 @@ def included(path):
     return [(number, *match.groups()) for number, match in matches if match]
 
 
+def complaints_in(path, about_library, about_own):
+    """What the two say of each include, with its line."""
+    found = ((number, about_own(own) if own else about_library(library)) for number, library, own in included(path))
+    return [f"{path}:{number}: {complaint}" for number, complaint in found if complaint]
+
+
 def check_file(path, room, table, is_public):
-    complaints = []
-    for number, library, own in included(path):
-        complaint = (complaint_about_room(own, room, table, is_test_file(path), is_public) if own
-                     else complaint_about_library(library, room, is_test_file(path), is_public))
-        if complaint:
-            complaints.append(f"{path}:{number}: {complaint}")
-    return complaints
+    is_test = is_test_file(path)
+    return complaints_in(path, lambda library: complaint_about_library(library, room, is_test, is_public),
+                         lambda own: complaint_about_room(own, room, table, is_test, is_public))
 
 
 def check_kit(path, room):
     """A file of the kit: it may use the room whose name its folder has, and those above."""
-    complaints = []
-    for number, library, own in included(path):
-        complaint = None
-        if not own:
-            complaint = complaint_about_library(library, room, True, path.suffix == ".h")
-        elif not is_above(next((part for part in own.split("/")[1:] if part != KIT), None), room):
-            complaint = f"the kit of '{room}' may not include \"{own}\""
-        if complaint:
-            complaints.append(f"{path}:{number}: {complaint}")
-    return complaints
+    def about_own(own):
+        other = next((part for part in own.split("/")[1:] if part != KIT), None)
+        return None if is_above(other, room) else f"the kit of '{room}' may not include \"{own}\""
+    return complaints_in(path, lambda library: complaint_about_library(library, room, True, path.suffix == ".h"), about_own)
 
 
 def check_program(root):
     """The program is above all rooms, but the test kit is not for it."""
-    return [f"{path}:{number}: only tests may include the test kit" for path in cpp_files(root, folders=("apps",))
-            for number, _, own in included(path) if (own or "").startswith(f"cairn/{KIT}/")]
+    def about_own(own):
+        return "only tests may include the test kit" if own.startswith(f"cairn/{KIT}/") else None
+    return [complaint for path in cpp_files(root, folders=("apps",)) for complaint in complaints_in(path, lambda _: None, about_own)]
 
 
 def check_names(room, links, by_sources, by_headers):

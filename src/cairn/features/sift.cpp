@@ -65,9 +65,9 @@ Keypoint keypoint_of(const ScaleSpace& space, const ScalePoint& point, float ang
           static_cast<float>(std::max(1.0, sigma / kSiftSigma))};
 }
 
-/// The strongest points, uniform over the image; they come strongest first.
-std::vector<ScalePoint> uniform(const ScaleSpace& space, const std::vector<ScalePoint>& points,
-                                std::size_t count) {
+/// Selects the strongest points, evenly over the image; they come strongest first.
+std::vector<ScalePoint> select_points(const ScaleSpace& space, const std::vector<ScalePoint>& points,
+                                      std::size_t count) {
   std::vector<PixelPosition> places;
   for (const ScalePoint& point : points) {
     const auto pixel = static_cast<float>(ScaleSpace::pixel_size(point.octave));
@@ -79,9 +79,10 @@ std::vector<ScalePoint> uniform(const ScaleSpace& space, const std::vector<Scale
   return selected;
 }
 
-/// Selects the strongest features, uniform over the image: points with several directions may have given more
+/// Selects the strongest features, evenly over the image: points with several directions may have given more
 /// than wanted.
-Features uniform(const ScaleSpace& space, const std::vector<Described>& described, std::size_t count) {
+Features select_features(const ScaleSpace& space, const std::vector<Described>& described,
+                         std::size_t count) {
   std::vector<PixelPosition> places;
   for (const Described& feature : described) places.push_back({feature.keypoint.u, feature.keypoint.v});
   const auto selected = select_uniform(places, space.width(), space.height(), count);
@@ -102,8 +103,8 @@ class SiftExtractor : public Extractor {
     std::unique_ptr<ScaleSpace> space = pool_.take(image.width(), image.height());
     space->build(image, executor);
     const auto count = static_cast<std::size_t>(options_.count);
-    const auto points = uniform(*space, find_sift_extrema(*space, options_.extrema, executor), count);
-    Features features = uniform(*space, describe(*space, points, executor), count);
+    const auto points = select_points(*space, find_sift_extrema(*space, options_.extrema, executor), count);
+    Features features = select_features(*space, describe(*space, points, executor), count);
     pool_.give_back(std::move(space));
     return features;
   }

@@ -23,8 +23,8 @@ struct PoseGraph {
     std::int64_t a = 0;  ///< id of a vertex
     std::int64_t b = 0;  ///< id of another vertex
     Rigid3 a_from_b;     ///< the measurement
-    /// Inverse covariance of the error (translation in metres, vector component of the quaternion), in g2o's
-    /// order; symmetric, positive semi-definite. The vector component is half the rotation vector for small
+    /// Inverse covariance of the error (translation in metres, vector part of the quaternion), in g2o's
+    /// order; symmetric, positive semi-definite. The vector part is half the rotation vector for small
     /// errors: see `information_from_std`.
     Matrix6d information = Matrix6d::Identity();
     bool robust = false;  ///< whether it may be wrong (a loop closure): the optimiser's robust kernel then

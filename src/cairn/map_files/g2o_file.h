@@ -15,7 +15,7 @@ namespace cairn {
 ///     FIX id [id ..]
 ///
 /// with the pose world_from_vertex, the measurement a_from_b and the upper triangle of the information, row
-/// by row, in the order (translation, vector component of the quaternion). Lines may come in any order;
+/// by row, in the order (translation, vector part of the quaternion). Lines may come in any order;
 /// vertices and edges keep theirs. Quaternions are normalised. All edges come with robust = false.
 /// InputError, with the line, for anything else: another number of fields, no finite number, an id that is
 /// negative or occurs twice, an edge or FIX with an unknown vertex, an edge from a vertex to itself, a

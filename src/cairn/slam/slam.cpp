@@ -56,7 +56,7 @@ class SlamPipeline {
         closer_(options, executor, indexed_) {}
 
   void process(ObservedFrame&& frame) {
-    TrackingResult track = this->track(std::move(frame));
+    TrackingResult track = track_frame(std::move(frame));
     if (tracker_.lost()) {
       begin_component(track);
     } else if (track.status == TrackingStatus::keyframe) {
@@ -79,7 +79,7 @@ class SlamPipeline {
   }
 
  private:
-  TrackingResult track(ObservedFrame&& frame) {
+  TrackingResult track_frame(ObservedFrame&& frame) {
     const Stopwatch watch;
     if (mapper_.apply_adjustment_if_due()) tracker_.follow_map();
     TrackingResult track = tracker_.track(std::move(frame));
