@@ -35,7 +35,7 @@ fs::path TemporaryFolder::make_folder(std::string_view name) const {
 }
 
 fs::path TemporaryFolder::write(std::string_view name, std::string_view contents) const {
-  const fs::path file = path_ / name;
+  fs::path file = path_ / name;
   fs::create_directories(file.parent_path());
   write_file(file, contents);
   return file;
