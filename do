@@ -49,7 +49,7 @@ packages_test=(
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
-packages_gcc=(g++)
+packages_gcc=(g++ universal-ctags)  # ctags: cmake/unity.cmake
 packages_sanitizers=(
   libclang-rt-16-dev  # what sanitized programs are linked with
   llvm-16             # names and lines in what the sanitizers report

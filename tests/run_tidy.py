@@ -3,15 +3,13 @@
 """Runs clang-tidy-14 over our sources, as many at once as there are cores.
 
 Most of clang-tidy's time goes into the headers of the libraries, so sources are checked in batches: one translation unit
-includes several of them and reads the headers once (467 sources in batches: a sixth of the time). Sources and headers
-that give one name two meanings never share a batch; a batch with findings is checked again in halves, down to the source
-that has them. A source that passed is passed over until it, one of our headers, .clang-tidy or the compile command
+includes several of them and reads the headers once (467 sources in batches: a sixth of the time; batches.py). A batch
+with findings is checked again in halves, down to the source that has them. A source that passed is passed over until it, one of our headers, .clang-tidy or the compile command
 changes.
 """
 
 import argparse
 import concurrent.futures
-import functools
 import hashlib
 import json
 import os
@@ -21,7 +19,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from sources import FOLDERS, ROOT, SKIPPED, cpp_files, includes_of
+from batches import make_batches
+from sources import FOLDERS, ROOT, SKIPPED, cpp_files
 
 TIDY = "clang-tidy-14"  # pinned: other versions have other checks
 MAX_BATCH = 32  # sources: more save little, and the last batch would keep one core waiting
@@ -59,69 +58,6 @@ def sources_to_check(root, build, chosen):
     return {path: (states[path].hexdigest(), flags[path]) for path in sorted(states)}
 
 
-TYPES = {"class", "struct", "enum", "union", "typedef"}
-
-
-def names_outside_classes(paths):
-    """{path: {name: whether it is a type}} of what each file defines in a namespace or as a macro, by ctags."""
-    command = ["ctags", "-x", "--languages=C++", "--kinds-C++=cdefgstuvx", "--_xformat=%F\t%K\t%{scopeKind}\t%N", "-L", "-"]
-    listed = subprocess.run(command, input="\n".join(map(str, paths)), capture_output=True, text=True, check=True).stdout
-    names = {path: {} for path in paths}
-    for line in listed.splitlines():
-        path, kind, scope, name = line.split("\t")
-        if scope in ("", "-", "namespace") and not name.startswith(("__anon", "TEST")):  # members have the class as scope
-            names[Path(path)][name] = kind in TYPES
-    for path in paths:  # GoogleTest's macros define a class of this name
-        names[path].update(dict.fromkeys(re.findall(r"^TEST(?:_[FP])?\((\w+, *\w+)\)", path.read_text(), re.MULTILINE), True))
-    return names
-
-
-class Batch:
-    """Sources with the same flags that compile as one translation unit: no name has two meanings."""
-
-    def __init__(self, flags, names):
-        self.flags, self.names = flags, names
-        self.headers = {}  # of each source: our headers that it includes, directly or not
-
-    def takes(self, source, headers):
-        if len(self.headers) >= MAX_BATCH:
-            return False
-        together = set().union(*self.headers.values())
-        return (all(self.agree(source, headers, other, others) for other, others in self.headers.items()) and
-                not self.types_of(headers - together) & self.types_of(together - headers))
-
-    def agree(self, a, headers_a, b, headers_b):
-        """A name of one source is none of the other's, nor of a header that only the other includes."""
-        names_a, names_b = self.names[a].keys(), self.names[b].keys()
-        return (names_a.isdisjoint(names_b) and names_a.isdisjoint(self.names_of(headers_b - headers_a)) and
-                names_b.isdisjoint(self.names_of(headers_a - headers_b)))
-
-    def names_of(self, headers):
-        return set().union(*(self.names[header].keys() for header in headers))
-
-    def types_of(self, headers):
-        return {name for header in headers for name, is_type in self.names[header].items() if is_type}
-
-
-def make_batches(sources, root):
-    """Batches with each source once for each of its compile commands, in the first one that takes it; large ones first."""
-    @functools.cache
-    def headers_of(path):
-        ours = includes_of(path, root)[1]
-        return frozenset(ours).union(*map(headers_of, ours))
-
-    names = names_outside_classes({*sources, *(header for path in sources for header in headers_of(path))})
-    batches = []
-    for path, (_, all_flags) in sources.items():
-        for flags in all_flags:
-            batch = next((one for one in batches if one.flags == flags and one.takes(path, headers_of(path))), None)
-            if not batch:
-                batch = Batch(flags, names)
-                batches.append(batch)
-            batch.headers[path] = headers_of(path)
-    return sorted(((batch.flags, list(batch.headers)) for batch in batches), key=lambda batch: -len(batch[1]))
-
-
 def write_batch(folder, flags, paths):
     """A source that includes `paths`, and the compilation database for it alone. Returns the source."""
     folder.mkdir(parents=True)
@@ -156,10 +92,11 @@ def check(sources, build, root, passed_now):
     folder = build / "tidy_batches"
     shutil.rmtree(folder, ignore_errors=True)
     findings = {}
+    batches = make_batches({path: flags for path, (_, flags) in sources.items()}, root, MAX_BATCH)
     pending = {path: len(flags) for path, (_, flags) in sources.items()}  # one result for each compile command
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         runs = [pool.submit(tidy_batch, folder / str(number), *batch, root)
-                for number, batch in enumerate(make_batches(sources, root))]
+                for number, batch in enumerate(batches)]
         for run in concurrent.futures.as_completed(runs):
             for path, output in run.result():
                 findings[path] = findings.get(path, "") + output
