@@ -16,14 +16,17 @@ class DenseCholesky : public BlockCholesky {
                                      kBlock * static_cast<Eigen::Index>(columns))),
         factor_(lower_.rows()) {}
 
-  bool solve(const BlockMatrix& matrix, const Eigen::VectorXd& right, Eigen::VectorXd& x) override {
+  bool factorise(const BlockMatrix& matrix) override {
     for (std::size_t c = 0; c < matrix.columns(); ++c) {
       for (std::size_t k = matrix.begin[c]; k < matrix.begin[c + 1]; ++k)
         lower_.block<kBlock, kBlock>(kBlock * matrix.rows[k], kBlock * static_cast<Eigen::Index>(c)) =
             matrix.blocks[k];
     }
     factor_.compute(lower_);
-    if (factor_.info() != Eigen::Success) return false;
+    return factor_.info() == Eigen::Success;
+  }
+
+  bool solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const override {
     x = factor_.solve(right);
     return x.allFinite();
   }
@@ -39,7 +42,7 @@ class SparseCholesky : public BlockCholesky {
     factor_.analyzePattern(lower_);
   }
 
-  bool solve(const BlockMatrix& matrix, const Eigen::VectorXd& right, Eigen::VectorXd& x) override {
+  bool factorise(const BlockMatrix& matrix) override {
     double* value = lower_.valuePtr();
     for (std::size_t c = 0; c < matrix.columns(); ++c) {
       for (Eigen::Index i = 0; i < kBlock; ++i) {
@@ -48,7 +51,10 @@ class SparseCholesky : public BlockCholesky {
       }
     }
     factor_.factorize(lower_);
-    if (factor_.info() != Eigen::Success) return false;
+    return factor_.info() == Eigen::Success;
+  }
+
+  bool solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const override {
     x = factor_.solve(right);
     return x.allFinite();
   }

@@ -24,9 +24,15 @@ struct BlockMatrix {
 class BlockCholesky {
  public:
   virtual ~BlockCholesky() = default;
+  /// Factorises the matrix for the calls of `solve` that follow. Returns false if it is not positive
+  /// definite.
+  [[nodiscard]] virtual bool factorise(const BlockMatrix& matrix) = 0;
+  /// Computes the x of matrix * x = right with the matrix last factorised. Returns false if x is not finite.
+  [[nodiscard]] virtual bool solve(const Eigen::VectorXd& right, Eigen::VectorXd& x) const = 0;
   /// Computes the x of matrix * x = right. Returns false if the matrix is not positive definite.
-  [[nodiscard]] virtual bool solve(const BlockMatrix& matrix, const Eigen::VectorXd& right,
-                                   Eigen::VectorXd& x) = 0;
+  [[nodiscard]] bool solve(const BlockMatrix& matrix, const Eigen::VectorXd& right, Eigen::VectorXd& x) {
+    return factorise(matrix) && solve(right, x);
+  }
 };
 
 /// Names the factorisation.

@@ -62,6 +62,22 @@ TEST(BlockCholesky, solves) {
   }
 }
 
+TEST(BlockCholesky, solves_for_several_right_sides_with_one_factorisation) {
+  for (const auto method : kMethods) {
+    const BlockMatrix matrix = make_band(30, 4, 5);
+    const auto cholesky = make_block_cholesky(matrix, method);
+    ASSERT_TRUE(cholesky->factorise(matrix));
+    for (const double size : {1.0, 3.0}) {
+      const Eigen::VectorXd truth = Eigen::VectorXd::LinSpaced(180, -size, size);
+      Eigen::VectorXd x, at_once;
+      ASSERT_TRUE(cholesky->solve(multiply(matrix, truth), x));
+      EXPECT_LT((x - truth).norm(), 1e-12 * size);
+      ASSERT_TRUE(make_block_cholesky(matrix, method)->solve(matrix, multiply(matrix, truth), at_once));
+      EXPECT_EQ(x, at_once);
+    }
+  }
+}
+
 TEST(BlockCholesky, reads_the_lower_triangle_alone) {
   for (const auto method : kMethods) {
     BlockMatrix matrix = make_band(3, 2, 2);
