@@ -15,15 +15,17 @@
 namespace cairn {
 namespace {
 
-/// One adjustment under way.
+/// One adjustment under way; without a border no field is estimated.
 class Adjustment {
  public:
   Adjustment(const BundleProblem& problem, const BundleStructure& structure, const BundleOptions& options,
-             const Executor& executor)
+             const Executor& executor, FieldBorder* border = nullptr)
       : options_(options),
-        equations_(problem.rig, structure, options, executor),
+        equations_(problem.rig, structure, options, executor, border),
         state_(problem, structure),
         moved_(state_) {}
+
+  void start_field_at(const DisparityField& field) { state_.field = field; }
 
   [[nodiscard]] BundleReport run() {
     equations_.evaluate_costs(state_);
@@ -39,6 +41,16 @@ class Adjustment {
   }
 
   [[nodiscard]] const BundleState& state() const { return state_; }
+  /// Solves the equations at the result without damping, if there is no gauge in the way. False if there is
+  /// no solution.
+  [[nodiscard]] bool solve_at_result() {
+    for (const double lambda : {0.0, kLeastLambda}) {
+      equations_.build(state_, lambda);
+      if (equations_.solve()) return true;
+    }
+    return false;
+  }
+  [[nodiscard]] std::size_t disparities() const { return equations_.count_disparities(); }
 
  private:
   /// `status` is undetermined until the equations have had a solution.
@@ -76,13 +88,16 @@ void store(const BundleState& state, const BundleStructure& structure, BundlePro
     problem.points_in_world[static_cast<std::size_t>(structure.points[i])] = state.points[i];
 }
 
-std::vector<char> find_inliers(const BundleProblem& problem) {
+/// The field is taken off the disparities.
+std::vector<char> find_inliers(const BundleProblem& problem, const DisparityField& field) {
   const std::vector<MatrixPose> poses = to_matrix_poses(problem.camera_from_world);
   std::vector<char> inlier;
   inlier.reserve(problem.observations.size());
-  for (const auto& [camera, point, seen] : problem.observations) {
+  for (const auto& [camera, point, measured] : problem.observations) {
     const Eigen::Vector3d in_camera =
         poses[static_cast<std::size_t>(camera)] * problem.points_in_world[static_cast<std::size_t>(point)];
+    Observation seen = measured;
+    seen.d -= disparity_field_basis(problem.rig, seen.u).dot(field);
     inlier.push_back(squared_error(problem.rig, in_camera, seen) < squared_error_limit(seen) ? 1 : 0);
   }
   return inlier;
@@ -100,6 +115,10 @@ void BundleOptions::validate() const {
   require(max_iterations >= 1, "max_iterations is at least 1");
   require(converged_relative_cost > 0 && converged_relative_cost < 1,
           "converged_relative_cost is between 0 and 1");
+}
+
+void FieldOptions::validate() const {
+  require(prior_sigma_px > 0 && std::isfinite(prior_sigma_px), "prior_sigma_px is above 0");
 }
 
 std::string_view to_string(BundleStatus status) {
@@ -124,7 +143,33 @@ BundleReport adjust_bundle(BundleProblem& problem, const BundleOptions& options,
   Adjustment adjustment(problem, structure, options, executor);
   BundleReport report = adjustment.run();
   store(adjustment.state(), structure, problem);
-  report.inlier = find_inliers(problem);
+  report.inlier = find_inliers(problem, DisparityField::Zero());
+  return report;
+}
+
+FieldReport adjust_bundle_with_field(BundleProblem& problem, DisparityField& field,
+                                     const BundleOptions& options, const FieldOptions& field_options,
+                                     const Executor& executor) {
+  options.validate();
+  field_options.validate();
+  require_bundle(problem);
+  require(field.allFinite(), "the field is finite");
+  FieldReport report;
+  report.field = field;
+  report.covariance =
+      field_options.prior_sigma_px * field_options.prior_sigma_px * Eigen::Matrix3d::Identity();
+  if (problem.observations.empty()) return report;
+  const BundleStructure structure = analyse_bundle(problem);
+  FieldBorder border(problem.rig, structure, field_options.prior_sigma_px);
+  Adjustment adjustment(problem, structure, options, executor, &border);
+  adjustment.start_field_at(field);
+  report.bundle = adjustment.run();
+  store(adjustment.state(), structure, problem);
+  report.field = field = adjustment.state().field;
+  report.bundle.inlier = find_inliers(problem, field);
+  if (report.bundle.status != BundleStatus::undetermined && adjustment.solve_at_result())
+    report.covariance = border.covariance();
+  report.disparities = adjustment.disparities();
   return report;
 }
 

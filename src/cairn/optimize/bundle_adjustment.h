@@ -10,6 +10,7 @@
 #include "cairn/geometry/inlier_limits.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/geometry/robust_kernel.h"
+#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -81,6 +82,42 @@ struct BundleReport {
 /// number of threads.
 [[nodiscard]] BundleReport adjust_bundle(BundleProblem& problem, const BundleOptions& options,
                                          const Executor& executor = Executor());
+
+/// Sets the prior of adjust_bundle_with_field.
+struct FieldOptions {
+  /// Standard deviation of each coefficient about zero, pixels: after a rectification disparities are
+  /// seldom wrong by more than twice this.
+  double prior_sigma_px = 0.5;
+
+  /// Throws PreconditionError if a value is out of range.
+  void validate() const;
+};
+
+/// Describes the result of adjust_bundle_with_field.
+struct FieldReport {
+  BundleReport bundle;  ///< both costs include the prior's; inliers are judged with the field taken off
+  DisparityField field = DisparityField::Zero();  ///< pixels
+  /// Formal covariance of the field, square pixels: cameras and points estimated with it, weights of the
+  /// kernel at the result, prior included.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  std::size_t disparities = 0;  ///< that influenced the result
+};
+
+/// Moves cameras and points as adjust_bundle does, and with them the one field c of all disparities of the
+/// problem, to the minimum of
+///
+///     1/2 sum_ij rho(|S_ij (pi(T_i X_j) + (0, 0, a_ij c) - z_ij)|^2) + 1/2 |c|^2 / prior_sigma_px^2
+///
+/// with a = disparity_field_basis of the measured column. `field` is the start, usually zero, and the result.
+/// If there are no observations or the equations could not be solved, it stays, and the covariance is that of
+/// the prior. Without a fixed camera the covariance is the same as with one.
+///
+/// Throws PreconditionError as adjust_bundle does, and if `field` is not finite. Gives the same bits at any
+/// number of threads.
+[[nodiscard]] FieldReport adjust_bundle_with_field(BundleProblem& problem, DisparityField& field,
+                                                   const BundleOptions& options,
+                                                   const FieldOptions& field_options = {},
+                                                   const Executor& executor = Executor());
 
 /// Computes the covariance of each point in the world, square metres, from the standard deviations of its
 /// observations with `use_observation` (one for each observation, 1 to use it) in front of their camera.

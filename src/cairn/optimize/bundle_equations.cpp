@@ -28,11 +28,12 @@ void subtract_product(const Eigen::Matrix<double, 6, 3>& a, const Eigen::Matrix<
 }  // namespace
 
 BundleEquations::BundleEquations(const Rig& rig, const BundleStructure& structure,
-                                 const BundleOptions& options, const Executor& executor)
+                                 const BundleOptions& options, const Executor& executor, FieldBorder* border)
     : rig_(rig),
       structure_(structure),
       options_(options),
       executor_(executor),
+      border_(border),
       active_(structure.terms.size(), 1),
       links_(structure.link_free.size()),
       link_blocks_(structure.link_free.size()),
@@ -70,6 +71,9 @@ void BundleEquations::build(const BundleState& state, double lambda) {
     for (std::size_t point = begin; point < end; ++point) build_point(point, state, lambda);
   });
   executor_.for_each(structure_.free_cameras.size(), [&](std::size_t free) { build_column(free, lambda); });
+  if (border_ == nullptr) return;
+  executor_.for_each(structure_.free_cameras.size(), [&](std::size_t free) { build_border_column(free); });
+  border_->sum_points(state.field, lambda);
 }
 
 void BundleEquations::build_point(std::size_t point, const BundleState& state, double lambda) {
@@ -81,15 +85,32 @@ void BundleEquations::build_point(std::size_t point, const BundleState& state, d
   factors_[point] = factorise(sums, lambda);
   for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
     whiten(factors_[point], link_blocks_[link]);
+  if (border_ != nullptr) build_border_point(point);
+}
+
+void BundleEquations::build_border_point(std::size_t point) {
+  FieldBorder::Point& sums = border_->point(point);
+  whiten(factors_[point], sums.coupling);
+  sums.gradient.noalias() -= sums.coupling * factors_[point].h;
+}
+
+/// The term as the state's field corrects it, in `corrected`; without a field the term itself, not copied.
+const BundleTerm& BundleEquations::term_at(std::size_t t, const BundleState& state,
+                                           BundleTerm& corrected) const {
+  if (border_ == nullptr) return structure_.terms[t];
+  corrected = border_->correct(structure_.terms[t], state.field);
+  return corrected;
 }
 
 PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& state) {
   PointSums sums;
+  BundleTerm corrected;
+  if (border_ != nullptr) border_->clear_point(point);
   const std::size_t begin = structure_.term_begin[point];
   for (std::size_t t = begin; t < structure_.term_begin[point + 1]; ++t) {
     const bool is_link = t - begin < structure_.links(point);
     const std::size_t link = structure_.link_begin[point] + t - begin;
-    const BundleTerm& term = structure_.terms[t];
+    const BundleTerm& term = term_at(t, state, corrected);
     const MatrixPose& pose = state.matrix_poses[static_cast<std::size_t>(term.camera)];
     const Eigen::Vector3d in_camera = pose * state.points[point];
     if (!is_in_front(in_camera)) active_[t] = 0;
@@ -99,7 +120,9 @@ PointSums BundleEquations::expand_terms(std::size_t point, const BundleState& st
     }
     const TermExpansion expansion(rig_, in_camera, term, options_.kernel, options_.kernel_scale);
     const Eigen::Matrix3d turned = sums.add(expansion, pose.rotation);
+    if (border_ != nullptr) border_->add_term(point, term, expansion, pose.rotation);
     if (!is_link) continue;
+    if (border_ != nullptr) border_->set_link(link, term, expansion);
     links_[link] = {in_camera, expansion.gradient(), expansion.hessian()};
     link_blocks_[link] << cross_times(in_camera, turned), turned;
   }
@@ -113,6 +136,7 @@ void BundleEquations::clear_link(std::size_t link) {
 
 void BundleEquations::drop_terms(std::size_t point) {
   factors_[point] = {};
+  if (border_ != nullptr) border_->clear_point(point);
   for (std::size_t t = structure_.term_begin[point]; t < structure_.term_begin[point + 1]; ++t)
     active_[t] = 0;
   for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
@@ -147,7 +171,8 @@ BundleEquations::PointFactor BundleEquations::factorise(const PointSums& sums, d
 }
 
 /// Z to Y = Z L^-T: its rows are L^-1 times those of Z.
-void BundleEquations::whiten(const PointFactor& factor, LinkBlock& block) {
+template <int kRows>
+void BundleEquations::whiten(const PointFactor& factor, Eigen::Matrix<double, kRows, 3>& block) {
   block.col(0) *= factor.inverse_diagonal[0];
   block.col(1) = (block.col(1) - factor.l10 * block.col(0)) * factor.inverse_diagonal[1];
   block.col(2) =
@@ -176,8 +201,34 @@ void BundleEquations::build_column(std::size_t free, double lambda) {
   right_.segment<6>(6 * static_cast<Eigen::Index>(free)) = -gradient;
 }
 
+void BundleEquations::build_border_column(std::size_t free) {
+  LinkBlock block = LinkBlock::Zero();
+  for (const std::size_t link : structure_.links_of_free.of(free)) {
+    border_->add_link(link, links_[link].point_in_camera, block);
+    const auto point = static_cast<std::size_t>(structure_.link_point[link]);
+    block.noalias() -= link_blocks_[link] * border_->point(point).coupling.transpose();
+  }
+  border_->set_camera(free, block);
+}
+
 bool BundleEquations::solve() {
+  if (border_ != nullptr) return solve_bordered();
   return structure_.free_cameras.empty() || solver_->solve(reduced_, right_, camera_step_);
+}
+
+bool BundleEquations::solve_bordered() {
+  Eigen::MatrixX3d solved_cameras = border_->cameras();
+  if (!structure_.free_cameras.empty()) {
+    if (!solver_->solve(reduced_, right_, camera_step_)) return false;
+    Eigen::VectorXd column;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      if (!solver_->solve(border_->cameras().col(c), column)) return false;
+      solved_cameras.col(c) = column;
+    }
+  }
+  if (!border_->solve(camera_step_, solved_cameras)) return false;
+  camera_step_.noalias() -= solved_cameras * border_->step();
+  return true;
 }
 
 Eigen::Vector3d BundleEquations::point_step(std::size_t point) const {
@@ -186,6 +237,7 @@ Eigen::Vector3d BundleEquations::point_step(std::size_t point) const {
   for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link)
     y.noalias() += link_blocks_[link].transpose() *
                    camera_step_.segment<6>(6 * static_cast<Eigen::Index>(structure_.link_free[link]));
+  if (border_ != nullptr) y.noalias() += border_->point(point).coupling.transpose() * border_->step();
   Eigen::Vector3d step;
   step[2] = -y[2] * factor.inverse_diagonal[2];
   step[1] = (-y[1] - factor.l21 * step[2]) * factor.inverse_diagonal[1];
@@ -195,10 +247,11 @@ Eigen::Vector3d BundleEquations::point_step(std::size_t point) const {
 
 void BundleEquations::move(const BundleState& from, BundleState& to) const {
   move_cameras(from, to);
+  if (border_ != nullptr) to.field = from.field + border_->step();
   executor_.for_each_chunk(structure_.points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t point = begin; point < end; ++point) move_point(point, from, to);
   });
-  to.sum_costs();
+  sum_costs(to);
 }
 
 void BundleEquations::move_cameras(const BundleState& from, BundleState& to) const {
@@ -219,15 +272,28 @@ void BundleEquations::move_point(std::size_t point, const BundleState& from, Bun
 void BundleEquations::evaluate_costs(BundleState& state) const {
   for (std::size_t point = 0; point < structure_.points.size(); ++point)
     price_point(point, state.term_costs, state);
+  sum_costs(state);
+}
+
+void BundleEquations::sum_costs(BundleState& state) const {
   state.sum_costs();
+  if (border_ != nullptr) state.cost += border_->prior_cost(state.field);
+}
+
+std::size_t BundleEquations::count_disparities() const {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < active_.size(); ++t)
+    if (active_[t] != 0 && structure_.terms[t].inverse_variances.z() > 0) ++count;
+  return count;
 }
 
 /// False where a term is behind its camera.
 bool BundleEquations::price_point(std::size_t point, const std::vector<double>& costs_before,
                                   BundleState& state) const {
   bool in_front = true;
+  BundleTerm corrected;
   for (std::size_t t = structure_.term_begin[point]; t < structure_.term_begin[point + 1]; ++t) {
-    const BundleTerm& term = structure_.terms[t];
+    const BundleTerm& term = term_at(t, state, corrected);
     const Eigen::Vector3d in_camera =
         state.matrix_poses[static_cast<std::size_t>(term.camera)] * state.points[point];
     state.term_costs[t] = costs_before[t];

@@ -6,6 +6,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/optimize/block_cholesky.h"
+#include "cairn/optimize/bundle_field.h"
 #include "cairn/optimize/bundle_structure.h"
 
 namespace cairn {
@@ -28,10 +29,11 @@ struct MatrixPose {
 /// Holds the estimates of cameras and points, and the cost rho(squared_error) of each term.
 struct BundleState {
   std::vector<Rigid3> camera_from_world;
-  std::vector<MatrixPose> matrix_poses;  ///< camera_from_world as matrices
-  std::vector<Eigen::Vector3d> points;   ///< in the structure's order
+  std::vector<MatrixPose> matrix_poses;           ///< camera_from_world as matrices
+  std::vector<Eigen::Vector3d> points;            ///< in the structure's order
+  DisparityField field = DisparityField::Zero();  ///< stays zero unless it is estimated
   std::vector<double> term_costs;
-  double cost = 0;  ///< half the sum of term_costs
+  double cost = 0;  ///< half the sum of term_costs, and the cost of the field's prior
 
   /// Takes the start of the problem; all costs are 0.
   BundleState(const BundleProblem& problem, const BundleStructure& structure);
@@ -49,21 +51,25 @@ struct BundleState {
 ///
 /// A camera moved by (w, v) moves a point p in it by -[p]x w + v, so one link's blocks of U and Z follow from
 /// the gradient g and the Hessian H of its cost by p: with B = (-[p]x, I), U = B^T H B and Z = B^T H R.
+///
+/// With a FieldBorder, the field of the disparities is one more unknown, and all steps are with it.
 class BundleEquations {
  public:
-  /// Refers to its arguments, which must outlive it.
+  /// Refers to its arguments, which must outlive it. Without a border no field is estimated.
   BundleEquations(const Rig& rig, const BundleStructure& structure, const BundleOptions& options,
-                  const Executor& executor);
+                  const Executor& executor, FieldBorder* border = nullptr);
 
   /// Builds the equations at the state. Drops the terms behind their camera and those of undetermined points.
   void build(const BundleState& state, double lambda);
-  /// Solves for the step of the cameras. Returns false if their equations have no solution.
+  /// Solves for the step of the cameras and the field. Returns false if their equations have no solution.
   [[nodiscard]] bool solve();
   /// Computes the state after the step and its costs. A point that its step would move behind a camera is not
   /// moved. A dropped term, and one that is behind its camera nevertheless, keeps its cost.
   void move(const BundleState& from, BundleState& to) const;
   /// Computes the costs at the state; a term behind its camera keeps its cost.
   void evaluate_costs(BundleState& state) const;
+  /// Returns the number of disparities that are not dropped.
+  [[nodiscard]] std::size_t count_disparities() const;
 
  private:
   /// Holds a term of a free camera: p, and gradient and Hessian of its cost by p.
@@ -86,9 +92,16 @@ class BundleEquations {
   void clear_link(std::size_t link);
   void drop_terms(std::size_t point);
   [[nodiscard]] static PointFactor factorise(const PointSums& sums, double lambda);
-  static void whiten(const PointFactor& factor, LinkBlock& block);
+  template <int kRows>
+  static void whiten(const PointFactor& factor, Eigen::Matrix<double, kRows, 3>& block);
   static void add_link(const Link& link, Matrix6d& hessian, Vector6d& gradient);
   void build_column(std::size_t free, double lambda);
+  void build_border_point(std::size_t point);
+  void build_border_column(std::size_t free);
+  [[nodiscard]] bool solve_bordered();
+  [[nodiscard]] const BundleTerm& term_at(std::size_t t, const BundleState& state,
+                                          BundleTerm& corrected) const;
+  void sum_costs(BundleState& state) const;
   [[nodiscard]] Eigen::Vector3d point_step(std::size_t point) const;
   void move_cameras(const BundleState& from, BundleState& to) const;
   void move_point(std::size_t point, const BundleState& from, BundleState& to) const;
@@ -98,6 +111,7 @@ class BundleEquations {
   const BundleStructure& structure_;
   const BundleOptions& options_;
   const Executor& executor_;
+  FieldBorder* border_;                 // nullptr if no field is estimated
   std::vector<char> active_;            // by term
   std::vector<Link> links_;             // by link
   std::vector<LinkBlock> link_blocks_;  // Z, then Y

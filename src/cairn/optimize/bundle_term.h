@@ -48,6 +48,10 @@ class TermExpansion {
 
   [[nodiscard]] Eigen::Vector3d weighted_error() const { return weights_.cwiseProduct(error_); }
   [[nodiscard]] Eigen::Vector3d gradient() const { return transposed_times(weighted_error()); }
+  /// Returns the weight of the disparity in W.
+  [[nodiscard]] double disparity_weight() const { return weights_[2]; }
+  /// Returns the derivative of the disparity by the depth, the only one that is not zero.
+  [[nodiscard]] double disparity_by_depth() const { return d_by_z_; }
 
   [[nodiscard]] Eigen::Matrix3d hessian() const {
     const double xx = u_by_x_ * u_by_x_ * weights_[0], yy = v_by_y_ * v_by_y_ * weights_[1];
