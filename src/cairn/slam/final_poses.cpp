@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/final_poses.h"
 
+#include <limits>
+
 #include "cairn/geometry/camera_pose.h"
+#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -16,6 +19,16 @@ void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, con
   }
   remembered.seen.shrink_to_fit();
   frames_.push_back(std::move(remembered));
+}
+
+void FrameMemory::correct_disparities(const Rig& rig, const DisparityField& field) {
+  for (Remembered& frame : frames_) {
+    for (RememberedObservation& seen : frame.seen) {
+      const double error = field.dot(disparity_field_basis(rig, static_cast<double>(seen.u)));
+      seen.d = static_cast<float>(static_cast<double>(seen.d) - error);  // NaN stays
+      if (!(seen.d > 0)) seen.d = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
 }
 
 void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const Remembered& remembered,
@@ -34,7 +47,7 @@ void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const R
   const PoseEstimate pose = estimate_pose(map.rig(), {points, observations}, CameraFromWorld(start),
                                           {.selection = PoseSelection::inliers_from_all});
   const auto inliers = static_cast<int>(pose.inliers.size());
-  if (!pose.found() || inliers < options.min_inliers || 2 * inliers < track.inliers) return;
+  if (!pose.found() || inliers < options.min_inliers || 2 * pose.inliers.size() < points.size()) return;
   track.reference_from_frame = world_from_reference.inverse() * pose.camera_from_world.inverse();
 }
 

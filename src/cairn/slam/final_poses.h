@@ -15,9 +15,12 @@ class FrameMemory {
   /// Stores the observations of a frame; `index` is its position in the `frames` given to refine().
   void remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked);
 
+  /// Takes a field off the disparities of all stored observations (correct_disparities).
+  void correct_disparities(const Rig& rig, const DisparityField& field);
+
   /// Solves again for the poses of the stored frames that are not keyframes, in the map as it is now. A frame
   /// keeps its pose relative to its keyframe if fewer than min_inliers of its landmarks, or fewer than half
-  /// of its former inliers, agree. Deterministic at any number of threads.
+  /// of those that are still in the map, agree. Deterministic at any number of threads.
   void refine(const Map& map, const SlamOptions& options, const Executor& executor,
               std::vector<TrackingResult>& frames) const;
 
