@@ -18,11 +18,6 @@ namespace cairn {
 /// Reads a depth image of 16 bit and one channel (PNG or PGM). Throws InputError if it has 8 bit or colour.
 [[nodiscard]] RawDepthImage read_depth(const std::filesystem::path& path);
 
-/// Holds width and height of an image, pixels.
-struct ImageSize {
-  int width = 0, height = 0;
-  bool operator==(const ImageSize&) const = default;
-};
 /// Returns the size that the file's header states, without decoding. Throws InputError if the file is
 /// missing, empty, of another format or, as far as its beginning and its end tell, truncated.
 [[nodiscard]] ImageSize probe_image(const std::filesystem::path& path);

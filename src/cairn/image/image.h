@@ -9,6 +9,12 @@
 
 namespace cairn {
 
+/// Holds width and height of an image, pixels.
+struct ImageSize {
+  int width = 0, height = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+
 /// Holds a dense image, row by row without padding. Pixel (0, 0) is the top left.
 template <class Pixel>
 class Image {

@@ -50,16 +50,24 @@ Interpolation interpolation_at(double coordinate, int size) {
 
 ImageRemap::ImageRemap(const Camera& source, const Camera& target,
                        const Eigen::Quaterniond& source_from_target, const Executor& executor)
+    : ImageRemap(
+          {source.width, source.height}, {target.width, target.height},
+          [&, rotation = source_from_target.toRotationMatrix().eval()](const Eigen::Vector2d& pixel) {
+            const auto ray = target.unproject(pixel);
+            return ray ? source.project(rotation * ray->homogeneous()) : std::nullopt;
+          },
+          executor) {}
+
+ImageRemap::ImageRemap(const ImageSize& source, const ImageSize& target,
+                       const std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>& source_of,
+                       const Executor& executor)
     : source_width_(source.width), source_height_(source.height), origins_(target.width, target.height) {
-  require(source.width > 0 && source.height > 0, "the source camera has an image size");
-  const Eigen::Matrix3d rotation = source_from_target.toRotationMatrix();
+  require(source.width > 0 && source.height > 0, "the source images have a size");
   executor.for_each_chunk(
       static_cast<std::size_t>(target.height), kRowsPerChunk, [&](std::size_t begin, std::size_t end) {
         for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v) {
           for (int u = 0; u < target.width; ++u) {
-            const auto ray = target.unproject({static_cast<double>(u), static_cast<double>(v)});
-            if (!ray) continue;
-            const auto pixel = source.project(rotation * ray->homogeneous());
+            const auto pixel = source_of({static_cast<double>(u), static_cast<double>(v)});
             if (pixel) origins_(u, v) = origin_of(*pixel);
           }
         }

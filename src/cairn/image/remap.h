@@ -3,7 +3,8 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <vector>
+#include <functional>
+#include <optional>
 
 #include "cairn/core/executor.h"
 #include "cairn/geometry/camera.h"
@@ -12,13 +13,18 @@
 namespace cairn {
 
 /// Remaps images of one camera to those that another one at the same position, possibly rotated, would have
-/// taken: for undistortion and rectification. The source of each pixel is computed once, to 1/256 pixel;
-/// images are interpolated bilinearly in integers. Gives the same bits at any number of threads and on every
-/// processor. Safe to call from several threads.
+/// taken, or by a given function: for undistortion and rectification. The source of each pixel is computed
+/// once, to 1/256 pixel; images are interpolated bilinearly in integers. Gives the same bits at any number of
+/// threads and on every processor. Safe to call from several threads.
 class ImageRemap {
  public:
   /// Computes the sources; `source_from_target` rotates the target's rays into the source's frame.
   ImageRemap(const Camera& source, const Camera& target, const Eigen::Quaterniond& source_from_target,
+             const Executor& executor = Executor());
+
+  /// Computes the sources by a function of the target's pixel, which returns nullopt for a pixel without one.
+  ImageRemap(const ImageSize& source, const ImageSize& target,
+             const std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>& source_of,
              const Executor& executor = Executor());
 
   /// Remaps a grey image; pixels that the source camera does not see are black. Throws PreconditionError

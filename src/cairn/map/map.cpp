@@ -129,6 +129,10 @@ void Map::set_component(KeyframeId id, std::int32_t component) {
   keyframe(id).component = component;
 }
 
+void Map::correct_disparities(const DisparityField& field) {
+  for (Keyframe& keyframe : keyframes_) cairn::correct_disparities(rig(), field, keyframe.observed);
+}
+
 void Map::end_recording() {
   for (Keyframe& keyframe : keyframes_) keyframe.observed.frame = {};
 }

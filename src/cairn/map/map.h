@@ -98,6 +98,8 @@ class Map {
   void move(KeyframeId keyframe, const Rigid3& world_from_camera);
   void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);
   void set_component(KeyframeId keyframe, std::int32_t component);
+  /// Takes a field off the disparities of all keyframes (cairn::correct_disparities).
+  void correct_disparities(const DisparityField& field);
   /// Ends the recording that the keyframes are of: their FrameIds become invalid, because the next recording
   /// counts its frames from 0 again.
   void end_recording();

@@ -7,6 +7,7 @@
 #include "cairn/core/id.h"
 #include "cairn/features/features.h"
 #include "cairn/geometry/rig.h"
+#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -22,6 +23,10 @@ struct ObservedFrame {
 
 /// Computes the point that an observation shows, in the camera frame, metres; NaN without a disparity.
 [[nodiscard]] Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen);
+
+/// Takes a field off the disparities and computes their points again. A disparity that would not be above 0
+/// is taken for not measured.
+void correct_disparities(const Rig& rig, const DisparityField& field, ObservedFrame& frame);
 
 /// Computes the median of the features' depths, metres; NaN if none has a depth.
 [[nodiscard]] double median_depth(const ObservedFrame& frame);

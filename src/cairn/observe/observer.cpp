@@ -67,6 +67,7 @@ Observer::Observer(const Calibration& calibration, const ObserverOptions& option
       rig_(rig_of(calibration, options.depth_noise)),
       depth_(options.depth_noise),
       stereo_(options.stereo_noise),
+      correction_(calibration.right_correction.value_or(StereoCorrection{})),
       extractor_(make_extractor(options.features)) {}
 
 ObservedFrame Observer::observe(const Frame& frame) const {
@@ -104,8 +105,9 @@ ObservedFrame Observer::observe_stereo(const Frame& frame) const {
     seen.sigma_px = static_cast<double>(keypoint.sigma_px);
     if (matches[i] && matches[i]->measured) {
       const double sigma = std::hypot(matches[i]->sigma_disparity_px, stereo_.sigma_floor_px);
-      if (matches[i]->disparity > stereo_.min_disparity_sigmas * sigma) {
-        seen.d = matches[i]->disparity;
+      const double disparity = correction_.corrected(rig_, seen.u, matches[i]->disparity);
+      if (disparity > stereo_.min_disparity_sigmas * sigma) {
+        seen.d = disparity;
         seen.sigma_d_px = sigma;
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "cairn/core/parameter.h"
 #include "cairn/features/extractor.h"
@@ -38,6 +39,9 @@ struct StereoNoise {
   /// calibration sways with the mount, and moves all disparities of an image alike, which many features do
   /// not average out.
   double sigma_floor_px = 0.5;
+  /// What is done about errors of the pair's calibration that the images show: "auto" corrects them where
+  /// that matters, "report" only states them, "off" does not look.
+  std::string self_calibration = "auto";
 };
 
 /// Holds the options of observing frames.
@@ -75,6 +79,7 @@ class Observer {
   Rig rig_;
   DepthNoise depth_;
   StereoNoise stereo_;
+  StereoCorrection correction_;
   std::unique_ptr<Extractor> extractor_;
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cairn/core/error.h"
 #include "cairn/core/parameter.h"
 #include "cairn/observe/observer.h"
 
@@ -40,6 +41,11 @@ void visit(StereoNoise& stereo, ParameterVisitor& visitor) {
   visitor.parameter({"stereo.sigma_floor_px", from(0, "pixels"),
                      "Standard deviation that every disparity has at least, as the cameras' mount sways."},
                     stereo.sigma_floor_px);
+  visitor.parameter(
+      {"stereo.self_calibration", any("auto, report or off"),
+       "What is done about errors of the pair's calibration that the images show: auto corrects "
+       "them where that matters, report only states them, off does not look."},
+      stereo.self_calibration);
 }
 
 }  // namespace
@@ -55,6 +61,10 @@ void ObserverOptions::validate() const {
   check_ranges(*this);
   check_parameter(depth_noise.max_depth > depth_noise.min_depth, "depth.max", "metres above depth.min",
                   depth_noise.max_depth);
+  const std::string& choice = stereo_noise.self_calibration;
+  if (choice != "auto" && choice != "report" && choice != "off")
+    throw InputError(
+        {"stereo.self_calibration", 0, "auto, report or off", choice, "Leave it out for the default, auto."});
 }
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 #include "cairn/geometry/camera.h"
 #include "cairn/geometry/rectification.h"
 #include "cairn/geometry/rigid3.h"
+#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -36,6 +37,8 @@ struct Calibration {
   std::optional<double> baseline;  ///< stereo, after rectification, metres
   std::optional<RawStereo> raw_stereo;    ///< set if the images on disk are not rectified
   std::optional<DepthCalibration> depth;  ///< RGB-D
+  /// What FrameLoader takes off the rows of right images, and Observer off disparities; nullopt for nothing.
+  std::optional<StereoCorrection> right_correction;
   PosesAre poses_are = PosesAre::camera;  ///< the camera that the given poses belong to
   /// Pose of the camera on the body whose poses are given (lever arm and boresight), in the body's axes; of a
   /// raw stereo pair, that of the left camera as it was recorded.

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <functional>
+#include <utility>
+
 #include "cairn/core/error.h"
+#include "cairn/geometry/stereo_correction.h"
 #include "cairn/image/codec.h"
 #include "cairn/image/registration.h"
 #include "cairn/image/remap.h"
@@ -31,9 +35,47 @@ struct Rectifier {
   }
 };
 
-Rectifier rectifier_of(const Camera& raw, const Camera& rectified,
-                       const Eigen::Quaterniond& rectified_from_raw) {
-  return {raw, ImageRemap(raw, rectified, rectified_from_raw.conjugate())};
+using SourceOf = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d&)>;
+
+/// Returns where a raw camera sees the pixel of the rectified one.
+SourceOf raw_pixel(const Camera& raw, const Camera& rectified, const Eigen::Quaterniond& rectified_from_raw) {
+  return [raw, rectified, rotation = rectified_from_raw.conjugate().toRotationMatrix().eval()](
+             const Eigen::Vector2d& pixel) -> std::optional<Eigen::Vector2d> {
+    const auto ray = rectified.unproject(pixel);
+    return ray ? raw.project(rotation * ray->homogeneous()) : std::nullopt;
+  };
+}
+
+/// Returns `source_of` at the right pixel that shows what the left image has on the target's row.
+SourceOf on_the_left_row(const Calibration& calibration, SourceOf source_of) {
+  const Camera& camera = calibration.camera;
+  const Rig rig{camera.fx, camera.fy, camera.cx, camera.cy, calibration.baseline.value_or(1)};
+  return [rig, correction = *calibration.right_correction,
+          source_of = std::move(source_of)](const Eigen::Vector2d& pixel) {
+    return source_of({pixel.x(), correction.right_row(rig, pixel.x(), pixel.y())});
+  };
+}
+
+Rectifier left_rectifier(const Calibration& calibration) {
+  if (!calibration.raw_stereo) return {calibration.camera, {}};
+  const auto& [pair, rectification] = *calibration.raw_stereo;
+  return {pair.left,
+          ImageRemap(pair.left, calibration.camera, rectification.rectified_from_left.conjugate())};
+}
+
+Rectifier right_rectifier(const Calibration& calibration) {
+  const Camera& camera = calibration.camera;
+  const bool correct = calibration.right_correction && !calibration.right_correction->rows.isZero(0);
+  if (!calibration.raw_stereo && !correct) return {camera, {}};
+  Camera raw = camera;
+  SourceOf source_of = [](const Eigen::Vector2d& pixel) { return std::optional(pixel); };
+  if (calibration.raw_stereo) {
+    const auto& [pair, rectification] = *calibration.raw_stereo;
+    raw = pair.right;
+    source_of = raw_pixel(raw, camera, rectification.rectified_from_right);
+  }
+  if (correct) source_of = on_the_left_row(calibration, std::move(source_of));
+  return {raw, ImageRemap({raw.width, raw.height}, {camera.width, camera.height}, source_of)};
 }
 
 }  // namespace
@@ -52,15 +94,11 @@ struct FrameLoader::Impl {
 FrameLoader::FrameLoader(const Sequence& sequence) : impl_(std::make_unique<Impl>()) {
   const Calibration& calibration = sequence.calibration;
   impl_->sequence = &sequence;
-  impl_->left.raw = impl_->right.raw = calibration.camera;
+  impl_->left = left_rectifier(calibration);
+  impl_->right = right_rectifier(calibration);
   if (calibration.depth && calibration.depth->camera) {
     impl_->registration.emplace(*calibration.depth->camera, calibration.camera,
                                 calibration.depth->camera_from_depth);
-  }
-  if (calibration.raw_stereo) {
-    const auto& [pair, rectification] = *calibration.raw_stereo;
-    impl_->left = rectifier_of(pair.left, calibration.camera, rectification.rectified_from_left);
-    impl_->right = rectifier_of(pair.right, calibration.camera, rectification.rectified_from_right);
   }
 }
 

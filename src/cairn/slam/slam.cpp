@@ -43,19 +43,31 @@ void require_same(const Map& start, const Rig& rig, const SlamOptions& options) 
                       fmt::format("Run with --set detector={0} --set descriptor={0}.", start.descriptor())});
 }
 
+/// Returns the component with the most keyframes.
+std::int32_t largest_component(const Map& map) {
+  std::map<std::int32_t, int> counts;
+  for (const KeyframeId id : map.keyframe_ids()) ++counts[map[id].component];
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? 0 : most->first;
+}
+
 /// Carries out one run.
 class SlamPipeline {
  public:
-  SlamPipeline(const SlamOptions& options, const Executor& executor, SlamResult& result)
+  SlamPipeline(const SlamOptions& options, const std::string& self_calibration, const Executor& executor,
+               SlamResult& result)
       : options_(options),
         executor_(executor),
         result_(result),
         indexed_(std::move(result.map)),
         tracker_(options, executor, indexed_),
         mapper_(options, executor, indexed_, result.times),
-        closer_(options, executor, indexed_) {}
+        closer_(options, executor, indexed_),
+        calibrator_(indexed_.map().rig(), self_calibration, executor) {}
 
   void process(ObservedFrame&& frame) {
+    calibrator_.correct(frame);
     TrackingResult track = track_frame(std::move(frame));
     if (tracker_.lost()) {
       begin_component(track);
@@ -63,12 +75,16 @@ class SlamPipeline {
       const KeyframeId keyframe = insert_keyframe();
       close_loops(keyframe);
       refer_to(keyframe, track);
+      if (calibrator_.is_due(indexed_.map())) calibrate(indexed_.map().component_of(keyframe));
       mapper_.start_adjustment(keyframe);
     }
     result_.frames.push_back(track);
   }
 
   void finish() {
+    (void)mapper_.apply_adjustment();
+    if (!options_.odometry) calibrate(largest_component(indexed_.map()));
+    result_.disparity_calibration = calibrator_.result();
     mapper_.finish();
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
     (void)cull_landmarks(indexed_.edit());
@@ -109,6 +125,13 @@ class SlamPipeline {
     result_.times.loops.push_back(watch.seconds());
   }
 
+  void calibrate(std::int32_t component) {
+    const DisparityField taken_off = calibrator_.update(component, indexed_.edit());
+    if (taken_off.isZero(0)) return;
+    memory_.correct_disparities(indexed_.map().rig(), taken_off);
+    tracker_.follow_map();
+  }
+
   /// Makes the keyframe, made of the last frame, the reference of tracking.
   void refer_to(KeyframeId keyframe, TrackingResult& track) {
     tracker_.refer_to(keyframe);
@@ -123,6 +146,7 @@ class SlamPipeline {
   Tracker tracker_;
   Mapper mapper_;
   LoopCloser closer_;
+  DisparityCalibrator calibrator_;
   FrameMemory memory_;
 };
 
@@ -195,20 +219,27 @@ Trajectory SlamResult::keyframe_trajectory() const {
   return trajectory;
 }
 
-SlamResult run_slam(const Sequence& sequence, const SlamOptions& given, const Executor& executor,
+SlamResult run_slam(const Sequence& recorded, const SlamOptions& given, const Executor& executor,
                     Progress& progress, std::optional<Map> start) {
   given.validate();
-  require_depth(sequence);
+  require_depth(recorded);
+  const auto& [sequence, row_errors, rows_aligned] =
+      align_rows(recorded, given.observer.stereo_noise.self_calibration, executor);
   const SlamOptions options = with_frame_period(given, sequence);
   const Rig rig = rig_of(sequence.calibration, options.observer.depth_noise);
+  const bool start_given = start.has_value();
   SlamResult result;
+  result.row_errors = row_errors;
+  result.rows_aligned = rows_aligned;
   if (start) {
     require_same(*start, rig, options);
     start->end_recording();
   }
   result.start_keyframes = start ? start->keyframe_ids().size() : 0;
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
-  SlamPipeline pipeline(options, executor, result);
+  const bool is_new_stereo = sequence.calibration.baseline.has_value() && !start_given;
+  SlamPipeline pipeline(options, is_new_stereo ? options.observer.stereo_noise.self_calibration : "off",
+                        executor, result);
   FrameStream stream{"tracking"};
   stream.process = [&](std::size_t, LoadedFrame&& loaded) {
     result.times.decode.push_back(loaded.decode_seconds);

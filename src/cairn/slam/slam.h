@@ -9,8 +9,10 @@
 #include "cairn/core/progress.h"
 #include "cairn/map/map.h"
 #include "cairn/map/pose_graph.h"
+#include "cairn/observe/row_errors.h"
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "cairn/sequence/sequence.h"
+#include "cairn/slam/disparity_calibration.h"
 #include "cairn/slam/loop_closer.h"
 #include "cairn/slam/options.h"
 #include "cairn/slam/stage_times.h"
@@ -29,6 +31,9 @@ struct SlamResult {
       graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
   StageTimes times;
+  RowErrors row_errors;       ///< of the right images; all zero if they were not measured
+  bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
+  DisparityCalibration disparity_calibration;  ///< of a stereo pair
   std::size_t start_keyframes = 0;  ///< keyframes of the map that the run started with; 0 without one
   bool stopped = false;             ///< whether the user stopped the run before the last frame
 
