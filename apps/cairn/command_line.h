@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -67,7 +68,7 @@ class CommandLine {
 
   /// Adds an option ("-o,--output") or a positional argument ("SEQ") that sets `value`, whose value before is
   /// the default. An option with a list takes one value each time it is given, a positional one all that are
-  /// left.
+  /// left; one with an array takes as many as that holds.
   Option add_option(const std::string& names, std::string& value, const std::string& description);
   Option add_option(const std::string& names, double& value, const std::string& description);
   Option add_option(const std::string& names, int& value, const std::string& description);
@@ -77,6 +78,7 @@ class CommandLine {
   Option add_option(const std::string& names, std::vector<std::string>& value,
                     const std::string& description);
   Option add_option(const std::string& names, std::vector<double>& value, const std::string& description);
+  Option add_option(const std::string& names, std::array<double, 3>& value, const std::string& description);
   Option add_flag(const std::string& names, bool& value, const std::string& description);
 
   /// Adds an option with a value that makes parse() print `text` of that value and end the program with 0,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 
 #include "cairn/core/file.h"
@@ -19,6 +20,7 @@ struct Arguments {
   std::string noise;
   double scale = 1;  ///< of the image size
   bool depth_truth = false;
+  std::array<double, 3> right_rotation_deg{};
 };
 
 /// What every simulated sequence has, with `Options` for its own defaults.
@@ -50,6 +52,34 @@ void add_noise_option(CommandLine& app, const std::string& sensor, const std::st
       .type_name("NAME");
 }
 
+/// Adds the errors of the right camera that the written calibration does not know.
+void add_planted_errors(CommandLine& street, SimulateStreetOptions& options, Arguments& arguments) {
+  street
+      .add_option(
+          "--right-rotation", arguments.right_rotation_deg,
+          "degrees, -5 to 5, by which the right camera is turned, unknown to the calibration: rotation "
+          "vector about its x (above 0: up), y (to the right) and z (clockwise) (default: 0 0 0)")
+      .check(number_in(-5, 5))
+      .type_name("RX RY RZ");
+  street
+      .add_option("--baseline-error", options.baseline_error_percent,
+                  "percent, -20 to 20, by which the true baseline is longer than the stated --baseline")
+      .check(number_in(-20, 20))
+      .show_default()
+      .type_name("PERCENT");
+}
+
+void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arguments& arguments) {
+  add_shared_options(street, options, arguments);
+  add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
+  street.add_option("--baseline", options.baseline, "metres between the two cameras")
+      .show_default()
+      .type_name("B");
+  add_planted_errors(street, options, arguments);
+  street.add_flag("--depth-truth", arguments.depth_truth,
+                  "also the left camera's true depth, 16 bit, 1/256 m");
+}
+
 void print_report(const Arguments& arguments, const SimulationReport& report, const std::string& folder,
                   const std::string& next) {
   const SimulationSummary summary{report, folder, arguments.common.seed, next};
@@ -75,6 +105,8 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = StreetNoise::none;
+  const auto& [x, y, z] = arguments.right_rotation_deg;
+  options.right_rotation_deg = {x, y, z};
   options.validate();
   OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);
@@ -100,13 +132,7 @@ int run_simulate(int argc, char** argv) {
   add_noise_option(room, "kinect", "kinect: noise and holes of a Kinect v1", arguments);
 
   CommandLine& street = app.add_command("street", "drive around a block with a stereo camera, KITTI layout");
-  add_shared_options(street, street_options, arguments);
-  add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
-  street.add_option("--baseline", street_options.baseline, "metres between the two cameras")
-      .show_default()
-      .type_name("B");
-  street.add_flag("--depth-truth", arguments.depth_truth,
-                  "also the left camera's true depth, 16 bit, 1/256 m");
+  add_street_options(street, street_options, arguments);
 
   if (const auto code = app.parse(argc, argv)) return *code;
   room.parsed() ? simulate_room(arguments, room_options) : simulate_street(arguments, street_options);

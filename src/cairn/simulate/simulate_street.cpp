@@ -15,6 +15,7 @@ namespace cairn {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kRadiansPerDegree = kTurn / 360;
 constexpr double kMinRound = 100, kMaxRound = 400;  // metres
 
 void expect(bool holds, const char* option, const char* expected, double found) {
@@ -73,6 +74,10 @@ void SimulateStreetOptions::validate() const {
              camera.fy > 0,
          "camera", "a pinhole camera with pixels and focal lengths", camera.fx);
   expect(baseline > 0, "--baseline", "a baseline above 0 m", baseline);
+  for (const double angle : right_rotation_deg)
+    expect(std::abs(angle) <= 5, "--right-rotation", "angles from -5 to 5 degrees", angle);
+  expect(std::abs(baseline_error_percent) <= 20, "--baseline-error", "an error from -20 to 20 %",
+         baseline_error_percent);
   expect(image_deviation >= 0, "image_deviation", "0 or more grey levels", image_deviation);
 }
 
@@ -89,6 +94,11 @@ Calibration SimulatedStreet::calibration() const {
   calibration.camera = options_.camera;
   calibration.baseline = options_.baseline;
   return calibration;
+}
+
+Rigid3 SimulatedStreet::left_from_right() const {
+  const double baseline = options_.baseline * (1 + options_.baseline_error_percent / 100);
+  return {rotation_exp(options_.right_rotation_deg * kRadiansPerDegree), {baseline, 0, 0}};
 }
 
 std::int64_t SimulatedStreet::stamp_ns(int frame) const {
@@ -124,9 +134,8 @@ Trajectory SimulatedStreet::truth() const {
 
 SimulatedStereoFrame SimulatedStreet::render(int frame) const {
   const Rigid3 street_from_left = street_from_camera(frame);
-  const Rigid3 left_from_right{Eigen::Quaterniond::Identity(), {options_.baseline, 0, 0}};
   SceneImage seen_left = render_scene(scene_, options_.camera, street_from_left);
-  const SceneImage seen_right = render_scene(scene_, options_.camera, street_from_left * left_from_right);
+  const SceneImage seen_right = render_scene(scene_, options_.camera, street_from_left * left_from_right());
   ImageSensor sensor;
   sensor.seed = options_.seed;
   sensor.frame = 2 * static_cast<std::uint64_t>(frame);  // the right camera has streams of its own

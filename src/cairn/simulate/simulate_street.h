@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 
 #include "cairn/core/executor.h"
@@ -27,7 +28,17 @@ struct SimulateStreetOptions {
   double speed = 8;     ///< metres per second, mean over a round
   int loops = 0;        ///< times around the block; 0: as many as keep a round below 400 m
   Camera camera = simulated_stereo_camera();  ///< pinhole; used for both cameras
-  double baseline = 0.537;                    ///< metres
+  double baseline = 0.537;                    ///< metres, as the calibration states it
+  /// Says how the right camera is turned out of the rectified pose that the calibration states: a rotation
+  /// vector about its own axes (x right, y down, z forward), degrees, each at most 5 in magnitude. Near the
+  /// principal point of the right image, with angles in radians: x > 0 turns the camera up and adds fy * x to
+  /// rows; y > 0 turns it to the right, takes fx * y from columns and so adds fx * y to disparities; z > 0
+  /// turns it clockwise, as seen from behind it, takes z * (u - cx) from rows and adds z * (v - cy) to
+  /// columns.
+  Eigen::Vector3d right_rotation_deg = Eigen::Vector3d::Zero();
+  /// Makes the true baseline (1 + this / 100) times the stated one; -20 to 20. Above 0 true disparities are
+  /// larger than the calibration expects.
+  double baseline_error_percent = 0;
   StreetNoise noise = StreetNoise::camera;
   /// Standard deviation of the image noise, grey levels; none with StreetNoise::none.
   float image_deviation = 2;
@@ -54,9 +65,12 @@ class SimulatedStreet {
 
   [[nodiscard]] int size() const { return options_.frames_count; }
   [[nodiscard]] const Camera& camera() const { return options_.camera; }
+  /// Returns what the sequence's files state, which does not know the planted errors of the right camera.
   [[nodiscard]] Calibration calibration() const;
+  /// Returns where the right camera truly is, with the planted errors.
+  [[nodiscard]] Rigid3 left_from_right() const;
   [[nodiscard]] std::int64_t stamp_ns(int frame) const;
-  /// Returns the pose of the left camera; the right one is `baseline` along its x axis.
+  /// Returns the pose of the left camera.
   [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
   /// Renders a frame. Safe to call from several threads.
