@@ -50,6 +50,26 @@ class Kitti(program.Quality):
         self.assert_same_files("run1", "run2", but=("run.json",))
 
 
+class Highway(program.Quality):
+    """Pairs whose right images are off by 0.6 px in their rows and 1 px in their disparities."""
+
+    def test_keeps_the_scale_the_same_at_any_number_of_threads(self):
+        sequence = program.recordings() / "stereo/odo01"
+        run = self.figures("slam", sequence, "-o", "run1", "--threads", "1")
+        self.assertTrue(run["stereo_calibration"]["disparities"]["applied"], run["stereo_calibration"])
+        self.assertLessEqual(self.figures("evaluate", "run1", sequence)["ate_rmse_m"], 0.35)
+        self.cairn("slam", sequence, "-o", "run2", "--threads", "2", "--quiet")
+        self.assert_same_files("run1", "run2", but=("run.json",))
+
+    def test_poses_are_not_moved_to_fit_wrong_disparities(self):
+        sequence = program.recordings() / "stereo/odo01"
+        done = self.figures("map", sequence, "-o", "map1", "--threads", "1")
+        self.assertLessEqual(done["smoothed_poses"]["moved_rms_m"], 0.04)
+        self.assertGreaterEqual(done["landmarks"], 9500)
+        self.cairn("map", sequence, "-o", "map2", "--threads", "2", "--quiet")
+        self.assert_same_files("map1", "map2")
+
+
 class Euroc(program.Quality):
     """Raw pairs, one a second."""
 
@@ -58,6 +78,8 @@ class Euroc(program.Quality):
         run = self.figures("slam", sequence, "-o", "run")
         self.assertGreaterEqual(run["frames"]["tracked"], 97)
         self.assertLessEqual(run["ate_rmse_m"], 0.05)
+        found = run["stereo_calibration"]
+        self.assertFalse(found["rows"]["applied"] or found["disparities"]["applied"], found)
 
 
 class Mistakes(program.Quality):

@@ -60,6 +60,35 @@ class Street(program.Quality):
         self.assertAlmostEqual(evaluation["sim3"]["scale"], 1, delta=0.003)
 
 
+class TurnedCamera(program.Quality):
+    """A street whose right camera is turned by 0.02 degrees about each axis, and one as calibrated."""
+
+    PLANTED_PX = 721.5 * 0.02 * 3.14159265 / 180  # c0 and c2 of its disparities
+
+    def street(self, name, *options):
+        self.cairn("simulate", "street", "-o", name, "--frames-count", "150", "--seed", "3", "--quiet", *options)
+
+    def scale(self, run, street):
+        return self.figures("evaluate", run, street)["sim3"]["scale"]
+
+    def test_is_found_and_taken_off(self):
+        self.street("street", "--right-rotation", "0.02", "0.02", "0.02")
+        found = self.figures("slam", "street", "-o", "run")["stereo_calibration"]
+        self.assertTrue(found["rows"]["applied"] and found["disparities"]["applied"], found)
+        for term, planted in zip(found["disparities"]["terms_px"], (self.PLANTED_PX, 0, self.PLANTED_PX)):
+            self.assertAlmostEqual(term, planted, delta=0.05)
+        self.assertAlmostEqual(self.scale("run", "street"), 1, delta=0.002)
+        self.figures("slam", "street", "-o", "as_calibrated", "--set", "stereo.self_calibration=off")
+        self.assertGreater(self.scale("as_calibrated", "street"), 1.01)  # what there was to find
+
+    def test_nothing_is_done_to_a_pair_as_calibrated(self):
+        self.street("street")
+        found = self.figures("slam", "street", "-o", "run", "--threads", "1")["stereo_calibration"]
+        self.assertFalse(found["rows"]["applied"] or found["disparities"]["applied"], found)
+        self.cairn("slam", "street", "-o", "off", "--threads", "2", "--set", "stereo.self_calibration=off", "--quiet")
+        self.assert_same_files("run", "off", but=("run.json", "config.yaml"))
+
+
 class Receiver(program.Quality):
     """Maps from the poses of a receiver, with every kind of deviation."""
 

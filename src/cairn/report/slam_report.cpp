@@ -10,6 +10,7 @@
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
+#include "cairn/report/stereo_calibration.h"
 
 namespace cairn {
 namespace {
@@ -44,35 +45,6 @@ Json loops_json(const LoopReport& loops) {
           {"parts_joined", loops.components_joined}};
 }
 
-Json rows_json(const RowErrors& rows, bool applied) {
-  return {{"pairs", rows.pairs},
-          {"matches", rows.matches},
-          {"terms_px", std::vector<double>(rows.field.begin(), rows.field.end())},
-          {"rms_px", rows.rms_px},
-          {"scatter_px", rows.scatter_px},
-          {"halves_differ_px", rows.halves_differ_px},
-          {"determined", rows.determined()},
-          {"applied", applied}};
-}
-
-Json disparities_json(const DisparityCalibration& found) {
-  return {{"disparities", found.disparities},
-          {"estimates", found.estimates},
-          {"terms_px", std::vector<double>(found.field.begin(), found.field.end())},
-          {"sigma_px", std::vector<double>(found.sigma.begin(), found.sigma.end())},
-          {"rms_px", found.rms_px},
-          {"cost_fall", found.cost_fall},
-          {"halves_differ_px", found.halves_differ_px},
-          {"determined", found.determined()},
-          {"applied", found.applied}};
-}
-
-Json stereo_calibration_json(const SlamResult& result) {
-  if (result.row_errors.pairs == 0 && result.disparity_calibration.estimates == 0) return nullptr;
-  return {{"rows", rows_json(result.row_errors, result.rows_aligned)},
-          {"disparities", disparities_json(result.disparity_calibration)}};
-}
-
 }  // namespace
 
 std::string format_slam_json(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary) {
@@ -87,7 +59,8 @@ std::string format_slam_json(const Sequence& sequence, const SlamResult& result,
   json["start_map"] = start_json(result);
   json["loops"] = loops_json(result.loops);
   json["landmarks"] = result.map.landmark_ids().size();
-  json["stereo_calibration"] = stereo_calibration_json(result);
+  json["stereo_calibration"] =
+      to_json(StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
   json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = json_of(summary.ate_m);
   json["cloud_points"] = summary.cloud_points;

@@ -7,6 +7,7 @@
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
 #include "cairn/report/slam_report.h"
+#include "cairn/report/stereo_calibration.h"
 #include "cairn/report/text_builder.h"
 
 namespace cairn {
@@ -51,6 +52,8 @@ void add_map(const SlamResult& result, TextBuilder& text) {
   text.add("landmarks    {}\n", result.map.landmark_ids().size());
   text.add("loops        {} closed, {} met without a gap, {} not believed, of {} keyframes compared\n",
            loops.closed, loops.joined, loops.rejected + loops.unconfirmed, loops.tried);
+  const std::string pair = describe({result.row_errors, result.rows_aligned, result.disparity_calibration});
+  if (!pair.empty()) text.add("{}\n", pair);
   if (loops.components_joined > 0) text.add("components   {} joined\n", loops.components_joined);
 }
 

@@ -11,6 +11,7 @@
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/landmark_picture.h"
 #include "cairn/report/ratio.h"
+#include "cairn/report/stereo_calibration.h"
 #include "cairn/report/text_builder.h"
 
 namespace cairn {
@@ -51,6 +52,8 @@ Json to_json(const SurveyResult& result) {
                          {"dominated_by_poses", counts.dominated_by_poses},
                          {"stated_position_std_m", result.stated.position_m},
                          {"stated_rotation_std_deg", result.stated.rotation_deg}};
+  json["stereo_calibration"] =
+      to_json(StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
   json["pose_check"] = to_json(result.pose_check);
   return json;
 }
@@ -112,6 +115,9 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
              100 * result.moved_rms_m, result.turned_rms_deg);
   if (result.pose_check.verdict == PoseVerdict::contradiction)
     text.add("\n             they contradict the images: {}", describe(result.pose_check));
+  const std::string pair = describe(
+      StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
+  if (!pair.empty()) text.add("\n{}", pair);
   text.add("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
            ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
            ratio(counts.matched, counts.frames));

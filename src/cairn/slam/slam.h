@@ -12,7 +12,7 @@
 #include "cairn/observe/row_errors.h"
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "cairn/sequence/sequence.h"
-#include "cairn/slam/disparity_calibration.h"
+#include "cairn/slam/disparity_calibrator.h"
 #include "cairn/slam/loop_closer.h"
 #include "cairn/slam/options.h"
 #include "cairn/slam/stage_times.h"

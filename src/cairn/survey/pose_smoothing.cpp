@@ -66,8 +66,10 @@ struct Jitter {
   double rotation_variance = 0, translation_variance = 0;  // of one given pose, per axis
 };
 
+/// Measures by how much given motions scatter about the seen ones. What they differ by in the mean, step
+/// after step, is a fault of the cameras' calibration, not jitter.
 Jitter measure_jitter(const FrameBuffer& frames, KeyframeId id, int reach) {
-  Vector6d squares = Vector6d::Zero();
+  Vector6d sum = Vector6d::Zero(), squares = Vector6d::Zero();
   double rotation_noise = 0, translation_noise = 0;
   int count = 0;
   for (int k = -reach + 1; k <= reach; ++k) {
@@ -75,12 +77,16 @@ Jitter measure_jitter(const FrameBuffer& frames, KeyframeId id, int reach) {
     if (!is_in(frames, frame) || !is_in(frames, before) || !frames[frame].motion) continue;
     const Rigid3 given =
         frames[before].given.world_from_camera.inverse() * frames[frame].given.world_from_camera;
-    squares += left_perturbation(given, frames[frame].motion->previous_from_this).cwiseAbs2();
+    const Vector6d difference = left_perturbation(given, frames[frame].motion->previous_from_this);
+    sum += difference;
+    squares += difference.cwiseAbs2();
     rotation_noise += frames[frame].motion->rotation_variance;
     translation_noise += frames[frame].motion->translation_variance;
     ++count;
   }
-  if (count == 0) return {};
+  if (count < 2) return {};
+  squares -= sum.cwiseAbs2() / count;
+  squares *= count / (count - 1.0);
   const auto variance = [&](double sum_of_squares, double noise) {
     return std::max(0.0, (sum_of_squares / 3 - noise) / (2.0 * count));
   };

@@ -13,6 +13,7 @@
 #include "cairn/survey/checkpoint.h"
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/identity.h"
+#include "cairn/survey/pilot.h"
 #include "cairn/survey/surveyor.h"
 
 namespace cairn {
@@ -57,12 +58,13 @@ class SurveyPipeline {
         executor_(executor),
         progress_(progress),
         identity_(identity_of(input)),
-        rig_(rig_of(input.sequence.calibration, options.observer.depth_noise)),
-        observer_(input.sequence, options.observer) {}
+        rig_(rig_of(input.sequence.calibration, options.observer.depth_noise)) {}
 
   [[nodiscard]] SurveyResult run() {
     try {
+      align();
       check_given_poses();
+      calibrate();
       begin();
       follow();
       if (!result_.stopped) finish();
@@ -86,10 +88,30 @@ class SurveyPipeline {
         "the work that was kept is discarded, since this run failed: the same command begins anew");
   }
 
+  /// Corrects the rows of right images, where that matters.
+  void align() {
+    auto aligned = align_rows(input_.sequence, options_.observer.stereo_noise.self_calibration, executor_);
+    result_.row_errors = aligned.errors;
+    result_.rows_aligned = aligned.applied;
+    sequence_ = std::move(aligned.sequence);
+  }
+
+  /// Corrects disparities, where that matters, and decides how frames are observed from now on.
+  void calibrate() {
+    DisparityCalibration& found = result_.disparity_calibration;
+    found = calibrate_by_poses(sequence_, input_.poses, options_, executor_);
+    std::optional<StereoCorrection>& correction = sequence_.calibration.right_correction;
+    if (found.applied) {
+      if (!correction) correction.emplace();
+      correction->disparity = found.field;
+    }
+    observer_.emplace(sequence_, options_.observer);
+  }
+
   void check_given_poses() {
     PoseCheck& check = result_.pose_check;
-    check = check_poses(input_.sequence, input_.poses, options_.observer, executor_);
-    refuse_misread(check, input_.sequence, input_.poses);
+    check = check_poses(sequence_, input_.poses, options_.observer, executor_);
+    refuse_misread(check, sequence_, input_.poses);
     if (check.verdict != PoseVerdict::contradiction) return;
     progress_.warn(
         fmt::format("the given poses contradict the images: {}. No misreading that is known explains "
@@ -130,7 +152,7 @@ class SurveyPipeline {
   void observe_again(std::vector<SurveyFrame>& frames) const {
     executor_.for_each(frames.size(), [&](std::size_t i) {
       const auto index = frames[i].observed.frame.index();
-      LoadedFrame loaded = observer_.load(index);
+      LoadedFrame loaded = observer_->load(index);
       if (loaded.failure) std::rethrow_exception(loaded.failure);
       if (!frames[i].kept.empty() && frames[i].kept.back() >= loaded.observed.observations.size())
         throw InputError({input_.sequence.frames[index].color.string(), 0, "the image of the earlier run",
@@ -152,7 +174,7 @@ class SurveyPipeline {
     FrameStream stream{"mapping"};
     stream.resumes_readable = state.counts.frames > 0;
     stream.process = [this](std::size_t index, LoadedFrame&& loaded) { process(index, loaded); };
-    result_.stopped = observe_frames(input_.sequence, observer_, todo, stream, executor_, progress_).stopped;
+    result_.stopped = observe_frames(sequence_, *observer_, todo, stream, executor_, progress_).stopped;
     if (result_.stopped) keep();
   }
 
@@ -207,7 +229,8 @@ class SurveyPipeline {
   Progress& progress_;
   std::uint32_t identity_;
   Rig rig_;
-  FrameObserver observer_;
+  Sequence sequence_;  // the input's, as it is corrected
+  std::optional<FrameObserver> observer_;
   std::unique_ptr<MapWriter> writer_;
   std::unique_ptr<Surveyor> surveyor_;
   Stopwatch since_checkpoint_;

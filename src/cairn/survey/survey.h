@@ -8,6 +8,8 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
+#include "cairn/observe/row_errors.h"
+#include "cairn/optimize/disparity_calibration.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/survey/cleaning.h"
@@ -65,9 +67,12 @@ struct SurveyResult {
   /// Root mean square over the landmarks of their standard deviation along the worst direction, metres: from
   /// the images, and from the poses' stated deviations.
   double image_std_rms_m = 0, pose_std_rms_m = 0;
-  StatedDeviations stated;  ///< of the given poses
-  PoseCheck pose_check;     ///< given poses against the images
-  bool stopped = false;     ///< whether the user stopped the run; the work so far is kept
+  StatedDeviations stated;    ///< of the given poses
+  RowErrors row_errors;       ///< of the right images; all zero if they were not measured
+  bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
+  DisparityCalibration disparity_calibration;  ///< of a stereo pair, by the given poses
+  PoseCheck pose_check;                        ///< given poses against the images
+  bool stopped = false;                        ///< whether the user stopped the run; the work so far is kept
 };
 
 /// Describes what is mapped.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/slam/disparity_calibration.h"
+#include "cairn/slam/disparity_calibrator.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ double length_of(const Map& map) {
 
 const DisparityField kError(-0.3, 0.1, -0.4);
 
-TEST(DisparityCalibration, a_planted_field_is_found_and_taken_off) {
+TEST(DisparityCalibrator, a_planted_field_is_found_and_taken_off) {
   testkit::MapMaker maker = drive(kError);
   DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
   EXPECT_TRUE(calibrator.is_due(maker.map));
@@ -48,7 +48,7 @@ TEST(DisparityCalibration, a_planted_field_is_found_and_taken_off) {
   EXPECT_FALSE(calibrator.is_due(maker.map));
 }
 
-TEST(DisparityCalibration, later_frames_are_corrected_as_the_map_is) {
+TEST(DisparityCalibrator, later_frames_are_corrected_as_the_map_is) {
   testkit::MapMaker maker = drive(kError);
   DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
   ObservedFrame before = maker.map[KeyframeId{3}].observed;
@@ -60,7 +60,7 @@ TEST(DisparityCalibration, later_frames_are_corrected_as_the_map_is) {
     EXPECT_DOUBLE_EQ(before.observations[i].d, in_map.observations[i].d);
 }
 
-TEST(DisparityCalibration, a_second_look_finds_the_same_field_and_takes_little_off) {
+TEST(DisparityCalibrator, a_second_look_finds_the_same_field_and_takes_little_off) {
   testkit::MapMaker maker = drive(kError);
   DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
   const DisparityField first = calibrator.update(0, maker.map);
@@ -69,7 +69,7 @@ TEST(DisparityCalibration, a_second_look_finds_the_same_field_and_takes_little_o
   EXPECT_EQ(calibrator.result().estimates, 2);
 }
 
-TEST(DisparityCalibration, nothing_is_done_where_nothing_is_wrong) {
+TEST(DisparityCalibrator, nothing_is_done_where_nothing_is_wrong) {
   testkit::MapMaker maker = drive(DisparityField::Zero());
   DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
   EXPECT_TRUE(calibrator.update(0, maker.map).isZero(0));
@@ -78,7 +78,7 @@ TEST(DisparityCalibration, nothing_is_done_where_nothing_is_wrong) {
   EXPECT_TRUE(calibrator.result().determined());
 }
 
-TEST(DisparityCalibration, report_finds_it_and_changes_nothing) {
+TEST(DisparityCalibrator, report_finds_it_and_changes_nothing) {
   testkit::MapMaker maker = drive(kError);
   const double length = length_of(maker.map);
   DisparityCalibrator calibrator(maker.map.rig(), "report", kOneThread);
@@ -89,7 +89,7 @@ TEST(DisparityCalibration, report_finds_it_and_changes_nothing) {
   EXPECT_EQ(length_of(maker.map), length);
 }
 
-TEST(DisparityCalibration, off_does_not_look) {
+TEST(DisparityCalibrator, off_does_not_look) {
   testkit::MapMaker maker = drive(kError);
   DisparityCalibrator calibrator(maker.map.rig(), "off", kOneThread);
   EXPECT_FALSE(calibrator.is_due(maker.map));
@@ -97,7 +97,7 @@ TEST(DisparityCalibration, off_does_not_look) {
   EXPECT_EQ(calibrator.result().estimates, 0);
 }
 
-TEST(DisparityCalibration, a_standing_camera_determines_nothing) {
+TEST(DisparityCalibrator, a_standing_camera_determines_nothing) {
   testkit::PointWorld world = drive(kError).world;
   testkit::MapMaker maker(world);
   for (int k = 0; k < kKeyframes; ++k) maker.add(testkit::ahead(0));
@@ -108,7 +108,7 @@ TEST(DisparityCalibration, a_standing_camera_determines_nothing) {
   EXPECT_FALSE(calibrator.result().applied);
 }
 
-TEST(DisparityCalibration, the_same_bits_at_any_number_of_threads) {
+TEST(DisparityCalibrator, the_same_bits_at_any_number_of_threads) {
   testkit::MapMaker one = drive(kError), three = drive(kError);
   const Executor three_threads(3);
   EXPECT_EQ(DisparityCalibrator(one.map.rig(), "auto", kOneThread).update(0, one.map),

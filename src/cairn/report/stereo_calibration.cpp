@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/report/stereo_calibration.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cairn/report/json_pieces.h"
+
+namespace cairn {
+namespace {
+
+Json rows_json(const RowErrors& rows, bool applied) {
+  return {{"pairs", rows.pairs},
+          {"matches", rows.matches},
+          {"terms_px", std::vector<double>(rows.field.begin(), rows.field.end())},
+          {"rms_px", rows.rms_px},
+          {"scatter_px", rows.scatter_px},
+          {"halves_differ_px", rows.halves_differ_px},
+          {"determined", rows.determined()},
+          {"applied", applied}};
+}
+
+Json disparities_json(const DisparityCalibration& found) {
+  return {{"disparities", found.disparities},
+          {"estimates", found.estimates},
+          {"terms_px", std::vector<double>(found.field.begin(), found.field.end())},
+          {"sigma_px", std::vector<double>(found.sigma.begin(), found.sigma.end())},
+          {"rms_px", found.rms_px},
+          {"cost_fall", found.cost_fall},
+          {"halves_differ_px", found.halves_differ_px},
+          {"determined", found.determined()},
+          {"applied", found.applied}};
+}
+
+const char* what_was_done(bool determined, bool applied) {
+  if (applied) return "corrected";
+  return determined ? "left as they are" : "not determined";
+}
+
+}  // namespace
+
+Json to_json(const StereoCalibrationFigures& figures) {
+  if (figures.rows.pairs == 0 && figures.disparities.estimates == 0) return nullptr;
+  return {{"rows", rows_json(figures.rows, figures.rows_aligned)},
+          {"disparities", disparities_json(figures.disparities)}};
+}
+
+std::string describe(const StereoCalibrationFigures& figures) {
+  const auto& [rows, rows_aligned, disparities] = figures;
+  if (rows.pairs == 0 && disparities.estimates == 0) return "";
+  return fmt::format(
+      "stereo pair  rows off by {:.2f} px RMS, {}; disparities by {:.2f} px RMS ({:+.2f} +- {:.2f} px in the "
+      "middle), {}",
+      rows.rms_px, what_was_done(rows.determined(), rows_aligned), disparities.rms_px, disparities.field[0],
+      disparities.sigma[0], what_was_done(disparities.determined(), disparities.applied));
+}
+
+}  // namespace cairn

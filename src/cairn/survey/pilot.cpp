@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/pilot.h"
+
+#include <algorithm>
+
+#include "cairn/optimize/bundle_adjustment.h"
+#include "cairn/sequence/sample_frames.h"
+#include "cairn/survey/tracks.h"
+
+namespace cairn {
+namespace {
+
+constexpr std::size_t kStretch = 10;  // frames
+constexpr std::size_t kFewestFrames = 20, kMostFrames = 60;
+constexpr std::size_t kFewestInTrack = 3;  // frames: two agree by chance
+
+/// Returns the first frames, by position among those with a pose, of stretches evenly over a sequence.
+std::vector<std::size_t> begins_of_stretches(std::size_t frames) {
+  const std::size_t wanted = std::clamp(frames / 10, kFewestFrames, kMostFrames);
+  std::vector<std::size_t> begins;
+  const std::size_t last = frames > kStretch ? frames - kStretch + 1 : 1;
+  for (const FrameId id : sample_frames(last, (wanted + kStretch - 1) / kStretch)) {
+    const std::size_t begin = id.index();
+    if (begins.empty() || begin >= begins.back() + kStretch) begins.push_back(begin);
+  }
+  return begins;
+}
+
+/// Makes a frame whose pose is taken as it is given.
+SurveyFrame make_frame(KeyframeId id, ObservedFrame&& observed, const GivenPose& given, double sigma_px) {
+  SurveyFrame frame;
+  frame.id = id;
+  frame.observed = std::move(observed);
+  scale_sigmas(sigma_px, frame.observed);
+  frame.given = given;
+  frame.world_from_camera = frame.odometry = given.world_from_camera;
+  frame.camera_from_world = given.world_from_camera.inverse();
+  return frame;
+}
+
+/// Follows features through one stretch of frames.
+class Stretch {
+ public:
+  Stretch(const Rig& rig, const SurveyOptions& options) : rig_(rig), options_(options) {}
+
+  void add(ObservedFrame&& observed, const GivenPose& given, const Executor& executor) {
+    const KeyframeId id{static_cast<std::int32_t>(frames_.size())};
+    SurveyFrame frame = make_frame(id, std::move(observed), given, options_.covariance.sigma_px);
+    std::vector<TrackMatch> matches;
+    if (!frames_.empty()) matches = match_to_tracks(rig_, frames_, tracks_, frame, options_.tracks, executor);
+    drop_unused_features(frame, matches);
+    frame.landmarks.resize(frame.observed.observations.size());
+    extend_tracks(frame, matches, tracks_);
+    frames_.push_back(std::move(frame));
+  }
+
+  /// Appends the cameras, all fixed, and the tracks that are long enough.
+  void append_to(BundleProblem& problem) const {
+    const auto first_camera = static_cast<std::int32_t>(problem.camera_from_world.size());
+    for (const SurveyFrame& frame : frames_.all()) {
+      problem.camera_from_world.push_back(frame.camera_from_world);
+      problem.camera_fixed.push_back(1);
+    }
+    for (const Track& track : tracks_) {
+      if (track.observations.size() < kFewestInTrack) continue;
+      const auto point = static_cast<std::int32_t>(problem.points_in_world.size());
+      problem.points_in_world.push_back(track.point_in_world);
+      for (const ObservationRef& seen : track.observations)
+        problem.observations.push_back(
+            {first_camera + seen.keyframe.value, point, observation_of(frames_, seen)});
+    }
+  }
+
+ private:
+  const Rig& rig_;
+  const SurveyOptions& options_;
+  FrameBuffer frames_;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace
+
+DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
+                                        const SurveyOptions& options, const Executor& executor) {
+  const std::string& self_calibration = options.observer.stereo_noise.self_calibration;
+  DisparityCalibration result;
+  if (self_calibration == "off" || !sequence.calibration.baseline) return result;
+  std::vector<std::size_t> with_pose;
+  for (std::size_t i = 0; i < poses.frames.size(); ++i)
+    if (poses.frames[i]) with_pose.push_back(i);
+  if (with_pose.empty()) return result;
+  const FrameObserver observer(sequence, options.observer);
+  BundleProblem problem;
+  problem.rig = rig_of(sequence.calibration, options.observer.depth_noise);
+  for (const std::size_t begin : begins_of_stretches(with_pose.size())) {
+    const std::size_t count = std::min(kStretch, with_pose.size() - begin);
+    auto loaded =
+        executor.map<LoadedFrame>(count, [&](std::size_t k) { return observer.load(with_pose[begin + k]); });
+    Stretch stretch(problem.rig, options);
+    for (std::size_t k = 0; k < count; ++k)
+      if (!loaded[k].failure)
+        stretch.add(std::move(loaded[k].observed), *poses.frames[with_pose[begin + k]], executor);
+    stretch.append_to(problem);
+  }
+  if (problem.observations.empty()) return result;
+  const double cost_without = adjust_bundle(problem, {}, executor).cost_after;
+  const FieldReport report = estimate_field(problem, DisparityField::Zero(), executor, result);
+  judge_field(problem, cost_without, report.bundle.cost_after, executor, result);
+  result.applied = self_calibration == "auto" && result.should_be_applied();
+  return result;
+}
+
+}  // namespace cairn

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "cairn/core/executor.h"
+#include "cairn/observe/frame_observer.h"
+#include "cairn/optimize/disparity_calibration.h"
+#include "cairn/sequence/given_poses.h"
+#include "cairn/survey/options.h"
+
+namespace cairn {
+
+/// Maps a small part of a stereo sequence, with the given poses held, and estimates the field of its
+/// disparities: with the poses known, what disparities are wrong by shows in every track. Takes stretches of
+/// ten frames, evenly over the sequence, a tenth of its frames and at least 20. Frames that cannot be read or
+/// have no pose are left out. `self_calibration` "off" estimates nothing, "report" applies nothing; whether
+/// it is to be applied is said in the result. Deterministic at any number of threads.
+[[nodiscard]] DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
+                                                      const SurveyOptions& options, const Executor& executor);
+
+}  // namespace cairn
