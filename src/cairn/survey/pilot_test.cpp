@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/pilot.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "cairn/simulate/write_kitti.h"
+#include "cairn/testing/survey/street_survey.h"
+
+namespace cairn {
+namespace {
+
+using testkit::small_street;
+using testkit::small_window;
+
+/// Simulates a street whose right camera is turned about its vertical axis.
+class CalibrateByPoses : public testing::Test {
+ protected:
+  [[nodiscard]] DisparityCalibration calibrate(double yaw_deg, const SurveyOptions& options = small_window(),
+                                               int threads = 2) {
+    SimulateStreetOptions street = small_street(kFrames);
+    street.right_rotation_deg.y() = yaw_deg;
+    const auto folder = scratch_.make_folder("street");
+    Progress silent;
+    const Executor executor(threads);
+    (void)write_kitti(SimulatedStreet(street, executor), folder, false, executor, silent);
+    const Sequence sequence = open_sequence(folder);
+    GivenPoses poses = read_given_poses(sequence);
+    if (without_poses_) poses.frames.assign(poses.frames.size(), std::nullopt);
+    return calibrate_by_poses(sequence, poses, options, executor);
+  }
+
+  static constexpr int kFrames = 24;
+  bool without_poses_ = false;
+  const testkit::TemporaryFolder scratch_;
+};
+
+TEST_F(CalibrateByPoses, finds_what_a_turned_camera_adds) {
+  constexpr double kYaw = 0.1;                                    // degrees
+  constexpr double kAdded = 240 * kYaw * std::numbers::pi / 180;  // pixels, in the middle
+  const DisparityCalibration found = calibrate(kYaw);
+  EXPECT_TRUE(found.determined());
+  EXPECT_TRUE(found.applied);
+  EXPECT_NEAR(found.field[0], kAdded, 0.05);
+  EXPECT_NEAR(found.field[2], kAdded, 3 * found.sigma[2]);
+}
+
+TEST_F(CalibrateByPoses, finds_nothing_where_nothing_is_wrong) {
+  const DisparityCalibration found = calibrate(0);
+  EXPECT_TRUE(found.determined());
+  EXPECT_LT(found.rms_px, 0.05);
+  EXPECT_FALSE(found.applied);
+}
+
+TEST_F(CalibrateByPoses, applies_nothing_that_is_only_to_be_reported) {
+  SurveyOptions options = small_window();
+  options.observer.stereo_noise.self_calibration = "report";
+  const DisparityCalibration found = calibrate(0.1, options);
+  EXPECT_TRUE(found.should_be_applied());
+  EXPECT_FALSE(found.applied);
+  options.observer.stereo_noise.self_calibration = "off";
+  EXPECT_EQ(calibrate(0.1, options).estimates, 0);
+}
+
+TEST_F(CalibrateByPoses, does_nothing_without_poses) {
+  without_poses_ = true;
+  EXPECT_EQ(calibrate(0.1).estimates, 0);
+}
+
+TEST_F(CalibrateByPoses, gives_the_same_bits_at_any_number_of_threads) {
+  EXPECT_EQ(calibrate(0.1, small_window(), 1).field, calibrate(0.1, small_window(), 3).field);
+}
+
+}  // namespace
+}  // namespace cairn
