@@ -129,8 +129,17 @@ void Map::set_component(KeyframeId id, std::int32_t component) {
   keyframe(id).component = component;
 }
 
-void Map::correct_disparities(const DisparityField& field) {
-  for (Keyframe& keyframe : keyframes_) cairn::correct_disparities(rig(), field, keyframe.observed);
+void Map::correct_disparities(const DisparityField& field, double min_sigmas) {
+  for (Keyframe& keyframe : keyframes_)
+    cairn::correct_disparities(rig(), field, min_sigmas, keyframe.observed);
+  for (Landmark& landmark : landmarks_) {
+    if (landmark.erased() || landmark.observations.size() != 1) continue;
+    const auto [id, feature] = landmark.observations.front();
+    const Eigen::Vector3d& point = keyframe(id).observed.points_in_camera[static_cast<std::size_t>(feature)];
+    if (point.allFinite()) landmark.point_in_world = keyframe(id).world_from_camera * point;
+  }
+  if (!header_.right_correction) header_.right_correction.emplace();
+  header_.right_correction->disparity += field;
 }
 
 void Map::end_recording() {

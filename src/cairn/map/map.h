@@ -98,8 +98,9 @@ class Map {
   void move(KeyframeId keyframe, const Rigid3& world_from_camera);
   void move(LandmarkId landmark, const Eigen::Vector3d& point_in_world);
   void set_component(KeyframeId keyframe, std::int32_t component);
-  /// Takes a field off the disparities of all keyframes (cairn::correct_disparities).
-  void correct_disparities(const DisparityField& field);
+  /// Takes a field off the disparities of all keyframes (cairn::correct_disparities), and adds it to the
+  /// header's correction. Landmarks that one keyframe alone shows move to where it shows them then.
+  void correct_disparities(const DisparityField& field, double min_sigmas);
   /// Ends the recording that the keyframes are of: their FrameIds become invalid, because the next recording
   /// counts its frames from 0 again.
   void end_recording();

@@ -8,6 +8,7 @@
 #include "cairn/features/features.h"
 #include "cairn/geometry/geodetic.h"
 #include "cairn/geometry/rig.h"
+#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -22,6 +23,9 @@ struct DescriptorKind {
 struct MapHeader {
   Rig rig;                    ///< rig that the observations are of
   int width = 0, height = 0;  ///< size of the images, pixels; 0 if it is not known
+  /// What was taken off the right images' rows and the disparities of a stereo pair; nullopt for nothing. An
+  /// image of the same pair fits the map after the same correction.
+  std::optional<StereoCorrection> right_correction;
   DescriptorKind descriptor;
   std::string world = "camera of the first keyframe";  ///< frame that poses and points are in, in words
   std::optional<GeodeticOrigin> origin;                ///< origin of a georeferenced world

@@ -24,9 +24,10 @@ struct ObservedFrame {
 /// Computes the point that an observation shows, in the camera frame, metres; NaN without a disparity.
 [[nodiscard]] Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen);
 
-/// Takes a field off the disparities and computes their points again. A disparity that would not be above 0
-/// is taken for not measured.
-void correct_disparities(const Rig& rig, const DisparityField& field, ObservedFrame& frame);
+/// Takes a field off the disparities and computes their points again. A disparity that is then not above
+/// `min_sigmas` of its standard deviations is taken for not measured.
+void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas,
+                         ObservedFrame& frame);
 
 /// Computes the median of the features' depths, metres; NaN if none has a depth.
 [[nodiscard]] double median_depth(const ObservedFrame& frame);

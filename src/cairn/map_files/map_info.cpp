@@ -44,6 +44,13 @@ Json to_json(const Rig& rig) {
           {"baseline", number(rig.baseline)}};
 }
 
+Json to_json(const StereoCorrection& correction) {
+  Json rows = Json::array(), disparities = Json::array();
+  for (const double term : correction.rows) rows.push_back(number(term));
+  for (const double term : correction.disparity) disparities.push_back(number(term));
+  return {{"rows_px", rows}, {"disparities_px", disparities}};
+}
+
 Json to_json(const GeodeticOrigin& origin) {
   return {{"latitude_deg", number(origin.latitude_deg)},
           {"longitude_deg", number(origin.longitude_deg)},
@@ -59,6 +66,7 @@ Json header_members(const MapInfo& info, std::size_t keyframes) {
   Json members{{"format", kMapFormat}, {"version", kMapVersion}, {"frame", info.world}};
   if (info.origin) members["origin"] = to_json(*info.origin);
   members["rig"] = to_json(info.rig);
+  if (info.right_correction) members["right_correction"] = to_json(*info.right_correction);
   members["image"] = {{"width", info.width}, {"height", info.height}};
   members["descriptor"] = to_json(info.descriptor);
   members["settings"] = info.settings;

@@ -109,6 +109,8 @@ class MapInfoReader {
     header.world = text_member(json, "frame");
     if (json.contains("origin")) header.origin = read_origin(json["origin"]);
     header.rig = read_rig(member(json, "rig"));
+    if (json.contains("right_correction"))
+      header.right_correction = read_correction(json["right_correction"]);
     const Json& image = member(json, "image");
     header.width = whole_member<std::int32_t>(image, "width");
     header.height = whole_member<std::int32_t>(image, "height");
@@ -125,6 +127,24 @@ class MapInfoReader {
       fail("a latitude within 90 degrees and a longitude within 180",
            fmt::format("{} and {}", origin.latitude_deg, origin.longitude_deg));
     return origin;
+  }
+
+  template <class Vector>
+  Vector read_terms(const Json& json, const std::string& name) const {
+    const Json& terms = member(json, name);
+    Vector vector;
+    const auto fits = [](const Json& term) { return term.is_number() && std::isfinite(term.get<double>()); };
+    if (!terms.is_array() || std::ssize(terms) != vector.size() ||
+        !std::all_of(terms.begin(), terms.end(), fits))
+      fail(fmt::format("a list of {} numbers for '{}'", vector.size(), name),
+           terms.dump(-1, ' ', false, Json::error_handler_t::replace));
+    for (Eigen::Index i = 0; i < vector.size(); ++i)
+      vector[i] = terms[static_cast<std::size_t>(i)].template get<double>();
+    return vector;
+  }
+
+  StereoCorrection read_correction(const Json& json) const {
+    return {read_terms<RowField>(json, "rows_px"), read_terms<DisparityField>(json, "disparities_px")};
   }
 
   Rig read_rig(const Json& json) const {

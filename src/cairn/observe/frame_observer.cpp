@@ -9,7 +9,10 @@ namespace cairn {
 
 namespace {
 
+/// Returns the calibration of resized images.
 Calibration with_camera(Calibration calibration, const Camera& camera) {
+  if (calibration.right_correction)
+    calibration.right_correction->disparity *= camera.fx / calibration.camera.fx;
   calibration.camera = camera;
   return calibration;
 }

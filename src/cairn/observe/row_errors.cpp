@@ -11,6 +11,7 @@
 #include "cairn/features/extractor.h"
 #include "cairn/matching/stereo_matching.h"
 #include "cairn/matching/window_offset.h"
+#include "cairn/observe/observer.h"
 #include "cairn/sequence/sample_frames.h"
 
 namespace cairn {
@@ -25,17 +26,12 @@ struct RowReading {
   double error_px;
 };
 
-Rig rig_of_pair(const Calibration& calibration) {
-  const Camera& camera = calibration.camera;
-  return {camera.fx, camera.fy, camera.cx, camera.cy, calibration.baseline.value_or(1)};
-}
-
 /// Measures the windows of one pair.
-class PairReader {
+class RowMeasurer {
  public:
-  explicit PairReader(const Sequence& sequence)
+  explicit RowMeasurer(const Sequence& sequence)
       : loader_(sequence),
-        rig_(rig_of_pair(sequence.calibration)),
+        rig_(rig_of(sequence.calibration, {})),
         extractor_(make_extractor({.detector = "ORB", .descriptor = "ORB", .count = kFeatures})) {
     matching_.row_band = 4;          // sigmas: rows may be wrong by some pixels
     matching_.min_correlation = -1;  // judged when the right row is known
@@ -123,21 +119,21 @@ double rms_of(const RowField& field, std::span<const RowReading> readings) {
 
 }  // namespace
 
-bool RowErrors::determined() const {
+bool RowErrors::is_determined() const {
   constexpr int kMinMatches = 200;
   return pairs > 1 && matches >= kMinMatches;
 }
 
 bool RowErrors::should_be_applied() const {
-  constexpr double kMatters = 0.2;  // pixels
-  return determined() && rms_px > kMatters && halves_differ_px < 0.5 * rms_px;
+  constexpr double kMinRmsPx = 0.2;
+  return is_determined() && rms_px > kMinRmsPx && halves_differ_px < 0.5 * rms_px;
 }
 
 RowErrors measure_row_errors(const Sequence& sequence, const Executor& executor) {
   RowErrors errors;
   if (!sequence.calibration.baseline || sequence.frames.empty() || sequence.frames.front().right.empty())
     return errors;
-  const PairReader read(sequence);
+  const RowMeasurer read(sequence);
   const std::vector<FrameId> ids = sample_frames(sequence.frames.size(), kPairs);
   const auto of_pairs =
       executor.map<std::vector<RowReading>>(ids.size(), [&](std::size_t k) { return read(ids[k]); });

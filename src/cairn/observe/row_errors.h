@@ -12,7 +12,7 @@ namespace cairn {
 /// Holds how far the rows of a recording's stereo pairs are from one another, of what both images show.
 struct RowErrors {
   RowField field = RowField::Zero();  ///< left row less right row
-  int pairs = 0;                      ///< pairs that were examined
+  int pairs = 0;                      ///< pairs with matches
   int matches = 0;                    ///< windows found in both images
   double rms_px = 0;                  ///< of the field over the matches
   double scatter_px = 0;              ///< robust standard deviation of the matches about the field
@@ -21,7 +21,7 @@ struct RowErrors {
   double halves_differ_px = 0;
 
   /// Returns whether there are enough matches, from two pairs or more.
-  [[nodiscard]] bool determined() const;
+  [[nodiscard]] bool is_determined() const;
   /// Returns whether the field is determined, agrees between the halves of the recording and is large enough
   /// to matter: an error of the row of 0.25 px was seen to bias disparities by 0.05 px.
   [[nodiscard]] bool should_be_applied() const;

@@ -63,13 +63,13 @@ TEST_F(RowErrorsTest, nothing_is_left_where_the_loader_takes_it_off) {
 
 TEST_F(RowErrorsTest, rectified_pairs_need_nothing) {
   const RowErrors errors = measure_row_errors(pairs_with(RowField::Zero()), Executor());
-  EXPECT_TRUE(errors.determined());
+  EXPECT_TRUE(errors.is_determined());
   EXPECT_LT(errors.rms_px, 0.03);
   EXPECT_FALSE(errors.should_be_applied());
 }
 
 TEST_F(RowErrorsTest, one_pair_determines_nothing) {
-  EXPECT_FALSE(measure_row_errors(pairs_with(kTurned, 1), Executor()).determined());
+  EXPECT_FALSE(measure_row_errors(pairs_with(kTurned, 1), Executor()).is_determined());
 }
 
 TEST_F(RowErrorsTest, the_same_bits_at_any_number_of_threads) {

@@ -9,7 +9,7 @@ namespace {
 
 /// Says how many times too small the formal standard deviations of a field are: fields of both halves of six
 /// recordings differed by 2 to 11 of them.
-constexpr double kTooSure = 10;
+constexpr double kSigmaInflation = 10;
 /// Standard deviation of each term before anything is seen, pixels: with 700 px of focal length that of a
 /// camera turned by a twelfth of a degree.
 constexpr double kPriorPx = 1;
@@ -42,22 +42,33 @@ BundleProblem part_of(BundleProblem problem, std::size_t begin, std::size_t end)
   return problem;
 }
 
+/// Returns options with which an adjustment does not end before it has converged.
+BundleOptions until_converged() {
+  BundleOptions options;
+  options.max_iterations = 50;
+  return options;
+}
+
 FieldReport adjust_with_field(BundleProblem& problem, DisparityField field, const Executor& executor) {
-  return adjust_bundle_with_field(problem, field, {}, {kPriorPx / kTooSure}, executor);
+  return adjust_bundle_with_field(problem, field, until_converged(), {kPriorPx / kSigmaInflation}, executor);
 }
 
 }  // namespace
 
-bool DisparityCalibration::determined() const {
+bool DisparityCalibration::is_determined() const {
   constexpr std::int64_t kMinDisparities = 300;
   constexpr double kMaxSigma = 0.3;  // pixels, of c0
   return disparities >= kMinDisparities && sigma[0] < kMaxSigma;
 }
 
 bool DisparityCalibration::should_be_applied() const {
-  constexpr double kMatters = 0.15;      // pixels: what the terms were seen to change from part to part
+  constexpr double kMinRmsPx = 0.15;     // what the terms were seen to change from part to part
   constexpr double kMinCostFall = 0.01;  // less was seen only where nothing was wrong
-  return determined() && rms_px > kMatters && cost_fall > kMinCostFall && halves_differ_px < 2 * rms_px;
+  return is_determined() && rms_px > kMinRmsPx && cost_fall > kMinCostFall && halves_differ_px < rms_px;
+}
+
+double adjusted_cost(BundleProblem& problem, const Executor& executor) {
+  return adjust_bundle(problem, until_converged(), executor).cost_after;
 }
 
 FieldReport estimate_field(BundleProblem& problem, const DisparityField& from, const Executor& executor,
@@ -66,7 +77,7 @@ FieldReport estimate_field(BundleProblem& problem, const DisparityField& from, c
   FieldReport report = adjust_with_field(problem, from, executor);
   ++calibration.estimates;
   calibration.field = report.field;
-  calibration.sigma = kTooSure * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  calibration.sigma = kSigmaInflation * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   calibration.rms_px = rms_of(report.field, problem);
   calibration.disparities = static_cast<std::int64_t>(report.disparities);
   return report;

@@ -24,15 +24,19 @@ struct DisparityCalibration {
   bool applied = false;          ///< whether it was taken off all disparities
 
   /// Returns whether the bundle determines the field: enough disparities, and c0 to 0.3 px.
-  [[nodiscard]] bool determined() const;
-  /// Returns whether the field is determined, explains what does not fit, is large enough to matter, and both
-  /// halves of the cameras agree that it is there.
+  [[nodiscard]] bool is_determined() const;
+  /// Returns whether the field is determined, explains what does not fit, is large enough to matter, and is
+  /// larger than what the fields of both halves of the cameras differ by.
   [[nodiscard]] bool should_be_applied() const;
 };
 
+/// Adjusts a problem without a field until it converges, and returns its cost, which judge_field compares.
+[[nodiscard]] double adjusted_cost(BundleProblem& problem, const Executor& executor);
+
 /// Estimates the field of disparities that the field `from` was taken off already, in all: cameras, points
-/// and field together, with a prior of 1 px on each term. Moves the cameras that are not fixed and the points
-/// of the problem to where they are with the field. `calibration` takes field, sigma, rms and counts.
+/// and field together, with a prior of 1 px on each term, in formal standard deviations times ten. Moves the
+/// cameras that are not fixed and the points of the problem to where they are with the field. `calibration`
+/// takes field, sigma, rms and counts.
 [[nodiscard]] FieldReport estimate_field(BundleProblem& problem, const DisparityField& from,
                                          const Executor& executor, DisparityCalibration& calibration);
 

@@ -17,7 +17,7 @@ Json rows_json(const RowErrors& rows, bool applied) {
           {"rms_px", rows.rms_px},
           {"scatter_px", rows.scatter_px},
           {"halves_differ_px", rows.halves_differ_px},
-          {"determined", rows.determined()},
+          {"determined", rows.is_determined()},
           {"applied", applied}};
 }
 
@@ -29,13 +29,24 @@ Json disparities_json(const DisparityCalibration& found) {
           {"rms_px", found.rms_px},
           {"cost_fall", found.cost_fall},
           {"halves_differ_px", found.halves_differ_px},
-          {"determined", found.determined()},
+          {"determined", found.is_determined()},
           {"applied", found.applied}};
 }
 
-const char* what_was_done(bool determined, bool applied) {
+const char* state_of(bool is_determined, bool applied) {
   if (applied) return "corrected";
-  return determined ? "left as they are" : "not determined";
+  return is_determined ? "left as they are" : "not determined";
+}
+
+std::string describe_rows(const RowErrors& rows, bool aligned) {
+  if (rows.pairs == 0) return "rows not measured";
+  return fmt::format("rows off by {:.2f} px RMS, {}", rows.rms_px, state_of(rows.is_determined(), aligned));
+}
+
+std::string describe_disparities(const DisparityCalibration& found) {
+  if (found.estimates == 0) return "disparities not measured";
+  return fmt::format("disparities by {:.2f} px RMS ({:+.2f} +- {:.2f} px in the middle), {}", found.rms_px,
+                     found.field[0], found.sigma[0], state_of(found.is_determined(), found.applied));
 }
 
 }  // namespace
@@ -49,11 +60,7 @@ Json to_json(const StereoCalibrationFigures& figures) {
 std::string describe(const StereoCalibrationFigures& figures) {
   const auto& [rows, rows_aligned, disparities] = figures;
   if (rows.pairs == 0 && disparities.estimates == 0) return "";
-  return fmt::format(
-      "stereo pair  rows off by {:.2f} px RMS, {}; disparities by {:.2f} px RMS ({:+.2f} +- {:.2f} px in the "
-      "middle), {}",
-      rows.rms_px, what_was_done(rows.determined(), rows_aligned), disparities.rms_px, disparities.field[0],
-      disparities.sigma[0], what_was_done(disparities.determined(), disparities.applied));
+  return "stereo pair  " + describe_rows(rows, rows_aligned) + "; " + describe_disparities(disparities);
 }
 
 }  // namespace cairn

@@ -23,8 +23,15 @@ testkit::MapMaker drive(const DisparityField& error, double noise_px = 0.3) {
     world.add({random.uniform(-4, 4), random.uniform(-2, 2), random.uniform(3, 14)});
   testkit::MapMaker maker(world);
   for (int k = 0; k < kKeyframes; ++k) maker.add(testkit::ahead(kStep * k));
-  maker.map.correct_disparities(-error);
+  maker.map.correct_disparities(-error, 0);
   return maker;
+}
+
+StereoNoise noise(const std::string& self_calibration) {
+  StereoNoise noise;
+  noise.self_calibration = self_calibration;
+  noise.min_disparity_sigmas = 0;
+  return noise;
 }
 
 double length_of(const Map& map) {
@@ -36,12 +43,13 @@ const DisparityField kError(-0.3, 0.1, -0.4);
 
 TEST(DisparityCalibrator, a_planted_field_is_found_and_taken_off) {
   testkit::MapMaker maker = drive(kError);
-  DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
   EXPECT_TRUE(calibrator.is_due(maker.map));
-  const DisparityField taken_off = calibrator.update(0, maker.map);
+  const auto taken_off = calibrator.update(maker.map);
+  ASSERT_TRUE(taken_off);
   const DisparityCalibration& result = calibrator.result();
   EXPECT_TRUE(result.applied);
-  EXPECT_EQ(taken_off, result.field);
+  EXPECT_EQ(*taken_off, result.field);
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(result.field[i], kError[i], 3 * result.sigma[i]) << "term " << i;
   EXPECT_NEAR(result.field[0], kError[0], 0.05);
   EXPECT_NEAR(length_of(maker.map), kStep * (kKeyframes - 1), 0.01 * kStep * kKeyframes);
@@ -50,9 +58,9 @@ TEST(DisparityCalibrator, a_planted_field_is_found_and_taken_off) {
 
 TEST(DisparityCalibrator, later_frames_are_corrected_as_the_map_is) {
   testkit::MapMaker maker = drive(kError);
-  DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
   ObservedFrame before = maker.map[KeyframeId{3}].observed;
-  (void)calibrator.update(0, maker.map);
+  (void)calibrator.update(maker.map);
   calibrator.correct(before);
   const ObservedFrame& in_map = maker.map[KeyframeId{3}].observed;
   ASSERT_EQ(before.observations.size(), in_map.observations.size());
@@ -62,28 +70,29 @@ TEST(DisparityCalibrator, later_frames_are_corrected_as_the_map_is) {
 
 TEST(DisparityCalibrator, a_second_look_finds_the_same_field_and_takes_little_off) {
   testkit::MapMaker maker = drive(kError);
-  DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
-  const DisparityField first = calibrator.update(0, maker.map);
-  const DisparityField rest = calibrator.update(0, maker.map);
-  EXPECT_LT(rest.norm(), 0.02 * first.norm());
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
+  const auto first = calibrator.update(maker.map), rest = calibrator.update(maker.map);
+  ASSERT_TRUE(first && rest);
+  EXPECT_LT(rest->norm(), 0.02 * first->norm());
+  EXPECT_EQ(maker.map.header().right_correction->disparity, calibrator.result().field - kError);
   EXPECT_EQ(calibrator.result().estimates, 2);
 }
 
 TEST(DisparityCalibrator, nothing_is_done_where_nothing_is_wrong) {
   testkit::MapMaker maker = drive(DisparityField::Zero());
-  DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
-  EXPECT_TRUE(calibrator.update(0, maker.map).isZero(0));
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
+  EXPECT_FALSE(calibrator.update(maker.map));
   EXPECT_FALSE(calibrator.result().applied);
   EXPECT_LT(calibrator.result().rms_px, 0.05);
-  EXPECT_TRUE(calibrator.result().determined());
+  EXPECT_TRUE(calibrator.result().is_determined());
 }
 
 TEST(DisparityCalibrator, report_finds_it_and_changes_nothing) {
   testkit::MapMaker maker = drive(kError);
   const double length = length_of(maker.map);
-  DisparityCalibrator calibrator(maker.map.rig(), "report", kOneThread);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("report"), kOneThread);
   EXPECT_FALSE(calibrator.is_due(maker.map));
-  EXPECT_TRUE(calibrator.update(0, maker.map).isZero(0));
+  EXPECT_FALSE(calibrator.update(maker.map));
   EXPECT_FALSE(calibrator.result().applied);
   EXPECT_NEAR(calibrator.result().field[0], kError[0], 0.05);
   EXPECT_EQ(length_of(maker.map), length);
@@ -91,28 +100,39 @@ TEST(DisparityCalibrator, report_finds_it_and_changes_nothing) {
 
 TEST(DisparityCalibrator, off_does_not_look) {
   testkit::MapMaker maker = drive(kError);
-  DisparityCalibrator calibrator(maker.map.rig(), "off", kOneThread);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("off"), kOneThread);
   EXPECT_FALSE(calibrator.is_due(maker.map));
-  EXPECT_TRUE(calibrator.update(0, maker.map).isZero(0));
+  EXPECT_FALSE(calibrator.update(maker.map));
   EXPECT_EQ(calibrator.result().estimates, 0);
+}
+
+TEST(DisparityCalibrator, a_small_component_does_not_change_what_is_known) {
+  testkit::MapMaker maker = drive(kError);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
+  (void)calibrator.update(maker.map);
+  const DisparityField known = calibrator.result().field;
+  const testkit::View elsewhere = maker.world.see(testkit::ahead(1), 100);
+  for (int k = 0; k < 3; ++k) (void)maker.map.add_keyframe(ObservedFrame(elsewhere.observed), {}, {}, 1);
+  (void)calibrator.update(maker.map);
+  EXPECT_LT((calibrator.result().field - known).norm(), 0.01);
 }
 
 TEST(DisparityCalibrator, a_standing_camera_determines_nothing) {
   testkit::PointWorld world = drive(kError).world;
   testkit::MapMaker maker(world);
   for (int k = 0; k < kKeyframes; ++k) maker.add(testkit::ahead(0));
-  maker.map.correct_disparities(-kError);
-  DisparityCalibrator calibrator(maker.map.rig(), "auto", kOneThread);
-  EXPECT_TRUE(calibrator.update(0, maker.map).isZero(0));
-  EXPECT_FALSE(calibrator.result().determined());
+  maker.map.correct_disparities(-kError, 0);
+  DisparityCalibrator calibrator(maker.map.rig(), noise("auto"), kOneThread);
+  EXPECT_FALSE(calibrator.update(maker.map));
+  EXPECT_FALSE(calibrator.result().is_determined());
   EXPECT_FALSE(calibrator.result().applied);
 }
 
 TEST(DisparityCalibrator, the_same_bits_at_any_number_of_threads) {
   testkit::MapMaker one = drive(kError), three = drive(kError);
   const Executor three_threads(3);
-  EXPECT_EQ(DisparityCalibrator(one.map.rig(), "auto", kOneThread).update(0, one.map),
-            DisparityCalibrator(three.map.rig(), "auto", three_threads).update(0, three.map));
+  EXPECT_EQ(DisparityCalibrator(one.map.rig(), noise("auto"), kOneThread).update(one.map),
+            DisparityCalibrator(three.map.rig(), noise("auto"), three_threads).update(three.map));
   EXPECT_EQ(length_of(one.map), length_of(three.map));
 }
 

@@ -21,12 +21,14 @@ void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, con
   frames_.push_back(std::move(remembered));
 }
 
-void FrameMemory::correct_disparities(const Rig& rig, const DisparityField& field) {
+void FrameMemory::correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas) {
   for (Remembered& frame : frames_) {
     for (RememberedObservation& seen : frame.seen) {
-      const double error = field.dot(disparity_field_basis(rig, static_cast<double>(seen.u)));
-      seen.d = static_cast<float>(static_cast<double>(seen.d) - error);  // NaN stays
-      if (!(seen.d > 0)) seen.d = std::numeric_limits<float>::quiet_NaN();
+      const double corrected =
+          static_cast<double>(seen.d) - field.dot(disparity_field_basis(rig, static_cast<double>(seen.u)));
+      seen.d = static_cast<float>(corrected);  // NaN stays
+      if (!(corrected > 0 && corrected > min_sigmas * static_cast<double>(seen.sigma_d_px)))
+        seen.d = std::numeric_limits<float>::quiet_NaN();
     }
   }
 }

@@ -16,7 +16,7 @@ class FrameMemory {
   void remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked);
 
   /// Takes a field off the disparities of all stored observations (correct_disparities).
-  void correct_disparities(const Rig& rig, const DisparityField& field);
+  void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas);
 
   /// Solves again for the poses of the stored frames that are not keyframes, in the map as it is now. A frame
   /// keeps its pose relative to its keyframe if fewer than min_inliers of its landmarks, or fewer than half

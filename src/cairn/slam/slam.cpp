@@ -43,19 +43,10 @@ void require_same(const Map& start, const Rig& rig, const SlamOptions& options) 
                       fmt::format("Run with --set detector={0} --set descriptor={0}.", start.descriptor())});
 }
 
-/// Returns the component with the most keyframes.
-std::int32_t largest_component(const Map& map) {
-  std::map<std::int32_t, int> counts;
-  for (const KeyframeId id : map.keyframe_ids()) ++counts[map[id].component];
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == counts.end() ? 0 : most->first;
-}
-
 /// Carries out one run.
 class SlamPipeline {
  public:
-  SlamPipeline(const SlamOptions& options, const std::string& self_calibration, const Executor& executor,
+  SlamPipeline(const SlamOptions& options, const StereoNoise& stereo, const Executor& executor,
                SlamResult& result)
       : options_(options),
         executor_(executor),
@@ -64,7 +55,8 @@ class SlamPipeline {
         tracker_(options, executor, indexed_),
         mapper_(options, executor, indexed_, result.times),
         closer_(options, executor, indexed_),
-        calibrator_(indexed_.map().rig(), self_calibration, executor) {}
+        min_disparity_sigmas_(stereo.min_disparity_sigmas),
+        calibrator_(indexed_.map().rig(), stereo, executor) {}
 
   void process(ObservedFrame&& frame) {
     calibrator_.correct(frame);
@@ -75,7 +67,7 @@ class SlamPipeline {
       const KeyframeId keyframe = insert_keyframe();
       close_loops(keyframe);
       refer_to(keyframe, track);
-      if (calibrator_.is_due(indexed_.map())) calibrate(indexed_.map().component_of(keyframe));
+      if (calibrator_.is_due(indexed_.map())) calibrate();
       mapper_.start_adjustment(keyframe);
     }
     result_.frames.push_back(track);
@@ -83,7 +75,7 @@ class SlamPipeline {
 
   void finish() {
     (void)mapper_.apply_adjustment();
-    if (!options_.odometry) calibrate(largest_component(indexed_.map()));
+    calibrate();
     result_.disparity_calibration = calibrator_.result();
     mapper_.finish();
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
@@ -125,11 +117,16 @@ class SlamPipeline {
     result_.times.loops.push_back(watch.seconds());
   }
 
-  void calibrate(std::int32_t component) {
-    const DisparityField taken_off = calibrator_.update(component, indexed_.edit());
-    if (taken_off.isZero(0)) return;
-    memory_.correct_disparities(indexed_.map().rig(), taken_off);
-    tracker_.follow_map();
+  void calibrate() {
+    const Stopwatch watch;
+    const int estimates = calibrator_.result().estimates;
+    const auto taken_off = calibrator_.update(indexed_.edit());
+    if (calibrator_.result().estimates > estimates) result_.times.global.push_back(watch.seconds());
+    if (taken_off) {
+      memory_.correct_disparities(indexed_.map().rig(), *taken_off, min_disparity_sigmas_);
+      tracker_.correct_disparities(*taken_off, min_disparity_sigmas_);
+      tracker_.follow_map();
+    }
   }
 
   /// Makes the keyframe, made of the last frame, the reference of tracking.
@@ -146,6 +143,7 @@ class SlamPipeline {
   Tracker tracker_;
   Mapper mapper_;
   LoopCloser closer_;
+  double min_disparity_sigmas_;
   DisparityCalibrator calibrator_;
   FrameMemory memory_;
 };
@@ -182,8 +180,25 @@ MapHeader map_header(const Sequence& sequence, const SlamOptions& options) {
   header.rig = rig_of(sequence.calibration, options.observer.depth_noise);
   header.width = sequence.calibration.camera.width;
   header.height = sequence.calibration.camera.height;
+  header.right_correction = sequence.calibration.right_correction;
   header.descriptor.name = options.observer.features.descriptor;
   return header;
+}
+
+/// Returns the sequence as the start map's keyframes were observed.
+Sequence with_correction_of(const Map& start, Sequence sequence) {
+  if (start.header().right_correction)
+    sequence.calibration.right_correction = start.header().right_correction;
+  return sequence;
+}
+
+/// Returns how the field of disparities is to be found: not of a start map, whose disparities are of an
+/// earlier run, nor in odometry, which never adjusts the whole map.
+StereoNoise calibration_of_disparities(const Sequence& sequence, const SlamOptions& options, bool has_start) {
+  StereoNoise noise = options.observer.stereo_noise;
+  const bool is_stereo = !sequence.frames.empty() && !sequence.frames.front().right.empty();
+  if (!is_stereo || has_start || options.odometry) noise.self_calibration = "off";
+  return noise;
 }
 
 }  // namespace
@@ -223,23 +238,21 @@ SlamResult run_slam(const Sequence& recorded, const SlamOptions& given, const Ex
                     Progress& progress, std::optional<Map> start) {
   given.validate();
   require_depth(recorded);
-  const auto& [sequence, row_errors, rows_aligned] =
-      align_rows(recorded, given.observer.stereo_noise.self_calibration, executor);
-  const SlamOptions options = with_frame_period(given, sequence);
-  const Rig rig = rig_of(sequence.calibration, options.observer.depth_noise);
-  const bool start_given = start.has_value();
-  SlamResult result;
-  result.row_errors = row_errors;
-  result.rows_aligned = rows_aligned;
+  const SlamOptions options = with_frame_period(given, recorded);
   if (start) {
-    require_same(*start, rig, options);
+    require_same(*start, rig_of(recorded.calibration, options.observer.depth_noise), options);
     start->end_recording();
   }
+  const AlignedRows aligned = align_rows(start ? with_correction_of(*start, recorded) : recorded,
+                                         options.observer.stereo_noise.self_calibration, executor);
+  const Sequence& sequence = aligned.sequence;
+  SlamResult result;
+  result.row_errors = aligned.errors;
+  result.rows_aligned = aligned.applied;
   result.start_keyframes = start ? start->keyframe_ids().size() : 0;
+  const StereoNoise stereo = calibration_of_disparities(sequence, options, start.has_value());
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
-  const bool is_new_stereo = sequence.calibration.baseline.has_value() && !start_given;
-  SlamPipeline pipeline(options, is_new_stereo ? options.observer.stereo_noise.self_calibration : "off",
-                        executor, result);
+  SlamPipeline pipeline(options, stereo, executor, result);
   FrameStream stream{"tracking"};
   stream.process = [&](std::size_t, LoadedFrame&& loaded) {
     result.times.decode.push_back(loaded.decode_seconds);

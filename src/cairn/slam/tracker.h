@@ -37,6 +37,10 @@ class Tracker {
   TrackingResult track(ObservedFrame&& frame);
   /// Returns the last frame that was given to track().
   [[nodiscard]] const ObservedFrame& last_observed() const { return observed_; }
+  /// Takes a field off the disparities of the last frame (correct_disparities).
+  void correct_disparities(const DisparityField& field, double min_sigmas) {
+    cairn::correct_disparities(map_.rig(), field, min_sigmas, observed_);
+  }
   /// Returns the pose and landmarks of the last frame; meaningful unless lost().
   [[nodiscard]] const FramePose& last() const { return last_; }
   /// Returns the keyframe that the last frame's pose is relative to; meaningful unless lost().

@@ -84,9 +84,9 @@ Jitter measure_jitter(const FrameBuffer& frames, KeyframeId id, int reach) {
     translation_noise += frames[frame].motion->translation_variance;
     ++count;
   }
-  if (count < 2) return {};
-  squares -= sum.cwiseAbs2() / count;
-  squares *= count / (count - 1.0);
+  if (count == 0) return {};
+  squares -=
+      sum.cwiseAbs2() / count;  // the sum of steps has two poses' jitter only, which is next to nothing
   const auto variance = [&](double sum_of_squares, double noise) {
     return std::max(0.0, (sum_of_squares / 3 - noise) / (2.0 * count));
   };

@@ -12,8 +12,8 @@
 #include "cairn/observe/observe_frames.h"
 #include "cairn/survey/checkpoint.h"
 #include "cairn/survey/diagnosis.h"
+#include "cairn/survey/disparities_by_poses.h"
 #include "cairn/survey/identity.h"
-#include "cairn/survey/pilot.h"
 #include "cairn/survey/surveyor.h"
 
 namespace cairn {
@@ -35,11 +35,12 @@ DescriptorKind kind_of(const FeatureOptions& options) {
   return {options.descriptor, descriptors.norm(), static_cast<std::uint32_t>(descriptors.bytes())};
 }
 
-MapHeader header_of(const SurveyInput& input, const Rig& rig, const SurveyOptions& options) {
+MapHeader header_of(const SurveyInput& input, const Calibration& calibration, const SurveyOptions& options) {
   MapHeader header;
-  header.rig = rig;
-  header.width = input.sequence.calibration.camera.width;
-  header.height = input.sequence.calibration.camera.height;
+  header.rig = rig_of(calibration, options.observer.depth_noise);
+  header.right_correction = calibration.right_correction;
+  header.width = calibration.camera.width;
+  header.height = calibration.camera.height;
   header.descriptor = kind_of(options.observer.features);
   header.origin = input.poses.origin;
   header.world = header.origin ? "east, north and up at the origin" : "that of the given poses";
@@ -96,14 +97,16 @@ class SurveyPipeline {
     sequence_ = std::move(aligned.sequence);
   }
 
-  /// Corrects disparities, where that matters, and decides how frames are observed from now on.
+  /// Corrects disparities, where that matters and the poses do not contradict the images, and decides how
+  /// frames are observed from now on.
   void calibrate() {
     DisparityCalibration& found = result_.disparity_calibration;
     found = calibrate_by_poses(sequence_, input_.poses, options_, executor_);
-    std::optional<StereoCorrection>& correction = sequence_.calibration.right_correction;
+    if (result_.pose_check.verdict == PoseVerdict::contradiction) found.applied = false;
     if (found.applied) {
-      if (!correction) correction.emplace();
-      correction->disparity = found.field;
+      StereoCorrection correction = sequence_.calibration.right_correction.value_or(StereoCorrection{});
+      correction.disparity += found.field;
+      sequence_.calibration.right_correction = correction;
     }
     observer_.emplace(sequence_, options_.observer);
   }
@@ -120,7 +123,7 @@ class SurveyPipeline {
   }
 
   void begin() {
-    const MapHeader header = header_of(input_, rig_, options_);
+    const MapHeader header = header_of(input_, sequence_.calibration, options_);
     auto checkpoint =
         read_checkpoint(folder_, identity_, [&](std::vector<SurveyFrame>& frames) { observe_again(frames); });
     if (checkpoint) checkpoint = open_kept(header, std::move(*checkpoint));

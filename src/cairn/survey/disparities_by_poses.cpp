@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/survey/pilot.h"
+#include "cairn/survey/disparities_by_poses.h"
 
 #include <algorithm>
 
@@ -78,32 +78,45 @@ class Stretch {
   std::vector<Track> tracks_;
 };
 
+/// Returns the positions of the frames that have a pose.
+std::vector<std::size_t> frames_with_pose(const GivenPoses& poses) {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < poses.frames.size(); ++i)
+    if (poses.frames[i]) frames.push_back(i);
+  return frames;
+}
+
+/// Returns the cameras and tracks of stretches of the sequence.
+BundleProblem problem_of_stretches(const Sequence& sequence, const GivenPoses& poses,
+                                   const SurveyOptions& options, const Executor& executor) {
+  const FrameObserver observer(sequence, options.observer);
+  const std::vector<std::size_t> frames = frames_with_pose(poses);
+  BundleProblem problem;
+  problem.rig = rig_of(sequence.calibration, options.observer.depth_noise);
+  for (const std::size_t begin : begins_of_stretches(frames.size())) {
+    const std::size_t count = std::min(kStretch, frames.size() - begin);
+    auto loaded =
+        executor.map<LoadedFrame>(count, [&](std::size_t k) { return observer.load(frames[begin + k]); });
+    Stretch stretch(problem.rig, options);
+    for (std::size_t k = 0; k < count; ++k)
+      if (!loaded[k].failure)
+        stretch.add(std::move(loaded[k].observed), *poses.frames[frames[begin + k]], executor);
+    stretch.append_to(problem);
+  }
+  return problem;
+}
+
 }  // namespace
 
 DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
                                         const SurveyOptions& options, const Executor& executor) {
   const std::string& self_calibration = options.observer.stereo_noise.self_calibration;
+  const bool is_stereo = !sequence.frames.empty() && !sequence.frames.front().right.empty();
   DisparityCalibration result;
-  if (self_calibration == "off" || !sequence.calibration.baseline) return result;
-  std::vector<std::size_t> with_pose;
-  for (std::size_t i = 0; i < poses.frames.size(); ++i)
-    if (poses.frames[i]) with_pose.push_back(i);
-  if (with_pose.empty()) return result;
-  const FrameObserver observer(sequence, options.observer);
-  BundleProblem problem;
-  problem.rig = rig_of(sequence.calibration, options.observer.depth_noise);
-  for (const std::size_t begin : begins_of_stretches(with_pose.size())) {
-    const std::size_t count = std::min(kStretch, with_pose.size() - begin);
-    auto loaded =
-        executor.map<LoadedFrame>(count, [&](std::size_t k) { return observer.load(with_pose[begin + k]); });
-    Stretch stretch(problem.rig, options);
-    for (std::size_t k = 0; k < count; ++k)
-      if (!loaded[k].failure)
-        stretch.add(std::move(loaded[k].observed), *poses.frames[with_pose[begin + k]], executor);
-    stretch.append_to(problem);
-  }
+  if (self_calibration == "off" || !is_stereo || frames_with_pose(poses).empty()) return result;
+  BundleProblem problem = problem_of_stretches(sequence, poses, options, executor);
   if (problem.observations.empty()) return result;
-  const double cost_without = adjust_bundle(problem, {}, executor).cost_after;
+  const double cost_without = adjusted_cost(problem, executor);
   const FieldReport report = estimate_field(problem, DisparityField::Zero(), executor, result);
   judge_field(problem, cost_without, report.bundle.cost_after, executor, result);
   result.applied = self_calibration == "auto" && result.should_be_applied();

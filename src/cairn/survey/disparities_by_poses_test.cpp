@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/survey/pilot.h"
+#include "cairn/survey/disparities_by_poses.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST_F(CalibrateByPoses, finds_what_a_turned_camera_adds) {
   constexpr double kYaw = 0.1;                                    // degrees
   constexpr double kAdded = 240 * kYaw * std::numbers::pi / 180;  // pixels, in the middle
   const DisparityCalibration found = calibrate(kYaw);
-  EXPECT_TRUE(found.determined());
+  EXPECT_TRUE(found.is_determined());
   EXPECT_TRUE(found.applied);
   EXPECT_NEAR(found.field[0], kAdded, 0.05);
   EXPECT_NEAR(found.field[2], kAdded, 3 * found.sigma[2]);
@@ -48,7 +48,7 @@ TEST_F(CalibrateByPoses, finds_what_a_turned_camera_adds) {
 
 TEST_F(CalibrateByPoses, finds_nothing_where_nothing_is_wrong) {
   const DisparityCalibration found = calibrate(0);
-  EXPECT_TRUE(found.determined());
+  EXPECT_TRUE(found.is_determined());
   EXPECT_LT(found.rms_px, 0.05);
   EXPECT_FALSE(found.applied);
 }

@@ -11,9 +11,10 @@ namespace cairn {
 
 /// Maps a small part of a stereo sequence, with the given poses held, and estimates the field of its
 /// disparities: with the poses known, what disparities are wrong by shows in every track. Takes stretches of
-/// ten frames, evenly over the sequence, a tenth of its frames and at least 20. Frames that cannot be read or
-/// have no pose are left out. `self_calibration` "off" estimates nothing, "report" applies nothing; whether
-/// it is to be applied is said in the result. Deterministic at any number of threads.
+/// ten frames, evenly over the sequence, a tenth of its frames, 20 to 60. A wrong
+/// baseline, or a wrong scale of the poses, is taken for a field as far as it looks like one. Frames that
+/// cannot be read or have no pose are left out. `self_calibration` "off" estimates nothing, "report" applies
+/// nothing; whether it is to be applied is said in the result. Deterministic at any number of threads.
 [[nodiscard]] DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
                                                       const SurveyOptions& options, const Executor& executor);
 
