@@ -42,19 +42,19 @@ packages_build=(
   libgeographiclib-dev                  # geodetic poses
   libcli11-dev                          # the command line
   libgtest-dev python3                  # the build description knows the tests, too, which are C++ and Python
+  universal-ctags                       # says which sources can be compiled together, cmake/unity.cmake
 )
 packages_test=(
-  universal-ctags  # tests/report_lengths.py measures functions with it
   clang-format-14  # tests/check_format.py
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
-packages_gcc=(g++ universal-ctags)  # ctags: cmake/unity.cmake
+packages_gcc=(g++)
 packages_sanitizers=(
   libclang-rt-16-dev  # what sanitized programs are linked with
   llvm-16             # names and lines in what the sanitizers report
 )
-packages_tidy=(clang-tidy-14 python3 universal-ctags)
+packages_tidy=(clang-tidy-14)
 packages_format=(clang-format-14 python3)
 
 say() { printf 'do: %s\n' "$*" >&2; }

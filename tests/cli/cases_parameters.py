@@ -121,6 +121,7 @@ CASES = [
     no_sequence("range of the cloud", "--set voxel_grid=0", ("voxel_grid: expected metres above 0, found 0.\n  0.01 suits a room",)),
     no_sequence("range over two parameters", "--set depth.min=3 --set depth.max=2", ("depth.max: expected metres above depth.min, found 2",)),
     no_sequence("documented switch", "--set stereo.search_images=maybe", ("expected yes or no for 'stereo.search_images', found 'maybe'",)),
+    no_sequence("one of three words", "--set stereo.self_calibration=maybe", ("stereo.self_calibration: expected auto, report or off, found maybe.",)),
     # help
     *(Case(f"help of {command} explains parameters", f"{command} --help", code=0, prints=(f"Example: cairn {command}", "--parameters FORMAT", *prints))
       for command, prints in (("slam", ("  max_motion  ", "  rad + m above 0. Motion between neighbouring")),

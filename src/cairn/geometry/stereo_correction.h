@@ -37,6 +37,12 @@ struct StereoCorrection {
   [[nodiscard]] double right_row(const Rig& rig, double u_right, double v_left) const {
     return v_left - rows.dot(row_field_basis(rig, u_right, v_left));
   }
+  /// Computes the pixel of the recorded right image that shows what the left one shows at (u, v), with the
+  /// corrected disparity `d`.
+  [[nodiscard]] Eigen::Vector2d right_pixel(const Rig& rig, double u, double v, double d) const {
+    const double u_right = u - d - disparity.dot(disparity_field_basis(rig, u));
+    return {u_right, right_row(rig, u_right, v)};
+  }
   /// Computes the disparity of a point that was measured with `disparity_px` at the left column `u`.
   [[nodiscard]] double corrected(const Rig& rig, double u, double disparity_px) const {
     return disparity_px - disparity.dot(disparity_field_basis(rig, u));

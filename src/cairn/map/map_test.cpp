@@ -139,6 +139,30 @@ TEST(Map, an_erased_keyframe_belongs_to_the_component_of_its_parent) {
   EXPECT_EQ(map.component_of(kThird), 0);
 }
 
+TEST(Map, corrected_disparities_move_landmarks_of_one_keyframe_and_stand_in_the_header) {
+  const Rig rig{100, 100, 50, 50, 0.1};
+  Map map(rig, "ORB");
+  ObservedFrame frame = frame_with_features(3);
+  frame.observations[0] = {50, 50, 4};
+  frame.observations[1] = {70, 50, 4};
+  frame.observations[2] = {50, 50, 1};
+  for (std::size_t i = 0; i < 3; ++i) frame.points_in_camera[i] = point_in_camera(rig, frame.observations[i]);
+  const KeyframeId first = map.add_keyframe(ObservedFrame(frame), pose(0), {}, 0);
+  (void)map.add_keyframe(std::move(frame), pose(1), first, 0);
+  const LandmarkId alone = map.add_landmark({0, 0, 1}, {first, 0}),
+                   both = map.add_landmark({0, 0, 1}, {first, 1});
+  map.add_observation(both, {kSecond, 1});
+  map.correct_disparities({-0.5, 0, -1}, 2);  // sigmas of 1 px
+  EXPECT_DOUBLE_EQ(map[first].observed.observations[0].d, 4.5);
+  EXPECT_DOUBLE_EQ(map[kSecond].observed.observations[1].d, 4.54);  // x = 0.2
+  EXPECT_FALSE(map[first].observed.observations[2].has_disparity());
+  EXPECT_FALSE(map[first].observed.points_in_camera[2].allFinite());
+  EXPECT_LT((map[alone].point_in_world - pose(0) * rig.point_at(50, 50, rig.depth(4.5))).norm(), 1e-12);
+  EXPECT_EQ(map[both].point_in_world, Eigen::Vector3d(0, 0, 1));
+  map.correct_disparities({0.25, 0, 0}, 2);
+  EXPECT_EQ(map.header().right_correction->disparity, DisparityField(-0.25, 0, -1));
+}
+
 TEST(Map, a_feature_shows_one_landmark) {
   Map map = map_of_three();
   const LandmarkId landmark = map.add_landmark({0, 0, 0}, {kFirst, 0});

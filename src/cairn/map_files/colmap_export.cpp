@@ -157,7 +157,9 @@ void Exporter::add_feature(const Observation& seen, LandmarkId landmark, const R
     feature.color = color_at(image, *left);
   }
   if (exported.right && seen.has_disparity()) {
-    const auto right = rig_.right->pixel(info_.rig, seen.u - seen.d, seen.v);
+    const Eigen::Vector2d recorded =
+        info_.right_correction.value_or(StereoCorrection{}).right_pixel(info_.rig, seen.u, seen.v, seen.d);
+    const auto right = rig_.right->pixel(info_.rig, recorded.x(), recorded.y());
     feature.right_index = list_pixel(right, landmark, *exported.right);
     if (right) {
       feature.right_u = static_cast<float>(right->x());

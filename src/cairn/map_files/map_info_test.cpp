@@ -83,6 +83,18 @@ TEST(MapInfo, is_read_as_it_was_written) {
   EXPECT_EQ(read.keyframes[1].component, info.keyframes[1].component);
 }
 
+TEST(MapInfo, keeps_what_was_taken_off_a_pair) {
+  MapInfo info = small_info();
+  EXPECT_FALSE(written_and_read(info).right_correction);
+  StereoCorrection& correction = info.right_correction.emplace();
+  correction.rows << -0.25, 1.0 / 3, 0, -7.3, 1e-9, 2;
+  correction.disparity = {-0.76, 0.1, -1.8};
+  const MapInfo read = written_and_read(info);
+  ASSERT_TRUE(read.right_correction);
+  EXPECT_EQ(read.right_correction->rows, correction.rows);
+  EXPECT_EQ(read.right_correction->disparity, correction.disparity);
+}
+
 TEST(MapInfo, holds_any_text) {
   MapInfo info = small_info();
   info.world = "a \"quote\", a \\ and a line,\nits break\t\x01 and \xC3\xA9";

@@ -79,5 +79,26 @@ TEST_F(FrameObserverTest, both_images_of_a_pair_are_resized) {
   EXPECT_GT(measured, 100U);
 }
 
+TEST_F(FrameObserverTest, a_field_is_taken_off_in_the_pixels_of_resized_images) {
+  constexpr int kDisparity = 40;
+  constexpr double kField = 6;  // pixels of the images as they are on disk
+  put("camera.yaml", camera_yaml() + "right: {baseline: 0.5}\n");
+  put_image("image_0/000000.png", blocks(0));
+  put_image("image_1/000000.png", blocks(kDisparity));
+  put("times.txt", "0\n");
+  Sequence sequence = open_sequence(folder_);
+  sequence.calibration.right_correction.emplace().disparity = {kField, 0, 0};
+  for (const int part : {1, 2}) {
+    const Camera resized = resized_camera(sequence.calibration.camera, kWidth / part, kHeight / part);
+    std::size_t measured = 0;
+    for (const Observation& seen : FrameObserver(sequence, {}, resized).load(0).observed.observations) {
+      if (!seen.has_disparity()) continue;
+      ++measured;
+      EXPECT_NEAR(seen.d, (kDisparity - kField) / part, 0.5);
+    }
+    EXPECT_GT(measured, 100U) << part;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

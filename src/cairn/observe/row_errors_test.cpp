@@ -61,6 +61,40 @@ TEST_F(RowErrorsTest, nothing_is_left_where_the_loader_takes_it_off) {
   EXPECT_FALSE(left.should_be_applied());
 }
 
+TEST_F(RowErrorsTest, nothing_is_left_of_a_raw_pair_either) {
+  Sequence sequence = pairs_with(kTurned);
+  const Camera camera = sequence.calibration.camera;
+  const LeftFromRight left_from_right(Rigid3{Eigen::Quaterniond::Identity(), {kRig.baseline, 0, 0}});
+  set_raw_stereo({camera, camera, left_from_right}, {}, sequence.calibration);
+  const RowErrors errors = measure_row_errors(sequence, Executor());
+  EXPECT_TRUE(errors.should_be_applied());
+  EXPECT_GT(errors.rms_px, 0.4);
+  sequence.calibration.right_correction.emplace().rows = errors.field;
+  EXPECT_LT(measure_row_errors(sequence, Executor()).rms_px, 0.04);
+}
+
+TEST_F(RowErrorsTest, a_stated_correction_is_kept) {
+  Sequence sequence = pairs_with(kTurned);
+  sequence.calibration.right_correction.emplace().disparity = {1, 2, 3};
+  const AlignedRows aligned = align_rows(sequence, "auto", Executor());
+  EXPECT_FALSE(aligned.applied);
+  EXPECT_EQ(aligned.errors.pairs, 0);
+  EXPECT_EQ(aligned.sequence.calibration.right_correction->disparity, DisparityField(1, 2, 3));
+}
+
+TEST_F(RowErrorsTest, rows_are_aligned_only_where_that_is_wanted) {
+  const Sequence sequence = pairs_with(kTurned);
+  const AlignedRows corrected = align_rows(sequence, "auto", Executor()),
+                    reported = align_rows(sequence, "report", Executor()),
+                    off = align_rows(sequence, "off", Executor());
+  EXPECT_TRUE(corrected.applied);
+  EXPECT_EQ(corrected.sequence.calibration.right_correction->rows, corrected.errors.field);
+  EXPECT_FALSE(reported.applied);
+  EXPECT_EQ(reported.errors.field, corrected.errors.field);
+  EXPECT_FALSE(reported.sequence.calibration.right_correction);
+  EXPECT_EQ(off.errors.pairs, 0);
+}
+
 TEST_F(RowErrorsTest, rectified_pairs_need_nothing) {
   const RowErrors errors = measure_row_errors(pairs_with(RowField::Zero()), Executor());
   EXPECT_TRUE(errors.is_determined());

@@ -56,7 +56,7 @@ std::optional<FieldReport> DisparityCalibrator::estimate(BundleProblem& problem)
 }
 
 DisparityField DisparityCalibrator::take_off(const FieldReport& report, const Window& adjusted, Map& map) {
-  const DisparityField rest = report.field - applied_;
+  DisparityField rest = report.field - applied_;
   applied_ = report.field;
   BundleReport without_outliers = report.bundle;  // the next adjustment judges
   std::fill(without_outliers.inlier.begin(), without_outliers.inlier.end(), char{1});
