@@ -25,6 +25,9 @@ def names_inside_functions(paths):
     for line in listed.splitlines():
         path, name = line.split("\t")
         names[Path(path)].add(name)
+    for path in paths:  # ctags loses constants behind a braced initializer
+        for declared in re.findall(r"^ +(?:static )?constexpr\b([^;]*)", path.read_text(), re.MULTILINE):
+            names[path].update(re.findall(r"\b(k[A-Z]\w*) *[={\[]", declared))
     return names
 
 
