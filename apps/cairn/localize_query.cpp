@@ -122,22 +122,15 @@ bool is_sequence(const fs::path& folder, const SequenceOptions& options) {
 
 }  // namespace
 
-/// Returns whether the sequence's pair is calibrated as that of the map: its images show the same errors.
-bool is_of_the_same_pair(const Sequence& sequence, const MapInfo& map) {
-  constexpr double kSame = 1e-6;  // relative
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); };
-  const Rig rig = rig_of(sequence.calibration, {});
-  return sequence.calibration.baseline && same(rig.fx, map.rig.fx) && same(rig.fy, map.rig.fy) &&
-         same(rig.cx, map.rig.cx) && same(rig.cy, map.rig.cy) && same(rig.baseline, map.rig.baseline);
-}
-
 Sequence open_query(const std::string& path, const SequenceOptions& options, const MapInfo& map, bool mono) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return sequence_of({path}, path, options, map);
   if (fs::is_directory(path, error) && !is_sequence(path, options))
     if (const auto images = images_in(path); !images.empty()) return sequence_of(images, path, options, map);
   Sequence sequence = open_sequence(path, options);
-  if (is_of_the_same_pair(sequence, map)) sequence.calibration.right_correction = map.right_correction;
+  // A pair that is calibrated as that of the map shows the same errors.
+  if (is_stereo(sequence) && are_same(rig_of(sequence.calibration, {}), map.rig))
+    sequence.calibration.right_correction = map.right_correction;
   if (!mono) return sequence;
   for (FrameFiles& files : sequence.frames) {
     files.depth.clear();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -50,6 +51,14 @@ struct Rig {
     return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};
   }
 };
+
+/// Tells whether all numbers of two rigs are the same to a millionth: files may have rounded them.
+[[nodiscard]] inline bool are_same(const Rig& a, const Rig& b) {
+  constexpr double kRelative = 1e-6;
+  const auto same = [](double x, double y) { return std::abs(x - y) <= kRelative * std::abs(y); };
+  return same(a.fx, b.fx) && same(a.fy, b.fy) && same(a.cx, b.cx) && same(a.cy, b.cy) &&
+         same(a.baseline, b.baseline);
+}
 
 /// Tells whether a point is in front of the camera: its depth is above a micrometre.
 [[nodiscard]] inline bool is_in_front(const Eigen::Vector3d& point_in_camera) {

@@ -13,14 +13,18 @@ Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen) {
   return rig.point_at(seen.u, seen.v, rig.depth(seen.d));
 }
 
+void correct_disparity(const Rig& rig, const DisparityField& field, double min_sigmas, Observation& seen) {
+  seen.d -= field.dot(disparity_field_basis(rig, seen.u));
+  if (!(seen.d > 0 && seen.d > min_sigmas * seen.sigma_d_px))
+    seen.d = std::numeric_limits<double>::quiet_NaN();
+}
+
 void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas,
                          ObservedFrame& frame) {
   for (std::size_t i = 0; i < frame.observations.size(); ++i) {
     Observation& seen = frame.observations[i];
     if (!seen.has_disparity()) continue;
-    seen.d -= field.dot(disparity_field_basis(rig, seen.u));
-    if (!(seen.d > 0 && seen.d > min_sigmas * seen.sigma_d_px))
-      seen.d = std::numeric_limits<double>::quiet_NaN();
+    correct_disparity(rig, field, min_sigmas, seen);
     frame.points_in_camera[i] = point_in_camera(rig, seen);
   }
 }

@@ -24,8 +24,11 @@ struct ObservedFrame {
 /// Computes the point that an observation shows, in the camera frame, metres; NaN without a disparity.
 [[nodiscard]] Eigen::Vector3d point_in_camera(const Rig& rig, const Observation& seen);
 
-/// Takes a field off the disparities and computes their points again. A disparity that is then not above
-/// `min_sigmas` of its standard deviations is taken for not measured.
+/// Takes a field off a disparity. One that is then not above `min_sigmas` of its standard deviations is taken
+/// for not measured.
+void correct_disparity(const Rig& rig, const DisparityField& field, double min_sigmas, Observation& seen);
+
+/// Takes a field off the disparities (correct_disparity) and computes their points again.
 void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas,
                          ObservedFrame& frame);
 

@@ -21,16 +21,12 @@ bool is_below(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-bool has_right_images(const Sequence& sequence) {
-  return sequence.calibration.baseline && !sequence.frames.empty() && !sequence.frames.front().right.empty();
-}
-
 }  // namespace
 
 RecordedRig recorded_rig(const Sequence& sequence) {
   const Calibration& calibration = sequence.calibration;
   RecordedRig rig{{calibration.camera, Eigen::Quaterniond::Identity()}, {}, calibration.baseline.value_or(0)};
-  if (has_right_images(sequence)) rig.right = rig.left;
+  if (is_stereo(sequence)) rig.right = rig.left;
   if (!calibration.raw_stereo) return rig;
   const auto& [pair, rectification] = *calibration.raw_stereo;
   rig.left = {pair.left, rectification.rectified_from_left.conjugate()};

@@ -91,8 +91,7 @@ bool PairOrder::looks_exchanged() const {
 
 PairOrder measure_pair_order(const Sequence& sequence) {
   PairOrder order;
-  if (!sequence.calibration.baseline || sequence.frames.empty() || sequence.frames.front().right.empty())
-    return order;
+  if (!is_stereo(sequence)) return order;
   const SignCounter count(sequence.calibration);
   const FrameLoader loader(sequence);
   const Sequence other = exchanged(sequence);

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cairn/core/error.h"
+#include "cairn/core/median.h"
 #include "cairn/features/extractor.h"
 #include "cairn/matching/stereo_matching.h"
 #include "cairn/matching/window_offset.h"
@@ -79,9 +81,7 @@ double robust_deviation(std::vector<double> errors) {
   constexpr double kOfMedian = 1.4826;  // of a normal distribution
   if (errors.empty()) return 0;
   for (double& error : errors) error = std::abs(error);
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return kOfMedian * *middle;
+  return kOfMedian * median(std::move(errors));
 }
 
 std::vector<double> residuals(std::span<const RowReading> readings, const RowField& field) {
@@ -131,8 +131,7 @@ bool RowErrors::should_be_applied() const {
 
 RowErrors measure_row_errors(const Sequence& sequence, const Executor& executor) {
   RowErrors errors;
-  if (!sequence.calibration.baseline || sequence.frames.empty() || sequence.frames.front().right.empty())
-    return errors;
+  if (!is_stereo(sequence)) return errors;
   const RowMeasurer read(sequence);
   const std::vector<FrameId> ids = sample_frames(sequence.frames.size(), kPairs);
   const auto of_pairs =

@@ -88,7 +88,7 @@ void store(const BundleState& state, const BundleStructure& structure, BundlePro
     problem.points_in_world[static_cast<std::size_t>(structure.points[i])] = state.points[i];
 }
 
-/// The field is taken off the disparities.
+/// Judges the observations with the field taken off their disparities.
 std::vector<char> find_inliers(const BundleProblem& problem, const DisparityField& field) {
   const std::vector<MatrixPose> poses = to_matrix_poses(problem.camera_from_world);
   std::vector<char> inlier;

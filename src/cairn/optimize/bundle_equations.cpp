@@ -94,7 +94,7 @@ void BundleEquations::build_border_point(std::size_t point) {
   sums.gradient.noalias() -= sums.coupling * factors_[point].h;
 }
 
-/// The term as the state's field corrects it, in `corrected`; without a field the term itself, not copied.
+/// Returns the term as the state's field corrects it, in `corrected`; without a field the term itself.
 const BundleTerm& BundleEquations::term_at(std::size_t t, const BundleState& state,
                                            BundleTerm& corrected) const {
   if (border_ == nullptr) return structure_.terms[t];

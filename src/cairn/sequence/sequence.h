@@ -57,6 +57,11 @@ struct Sequence {
   SequenceReport report;
 };
 
+/// Tells whether a sequence is of calibrated pairs: it has a baseline and right images.
+[[nodiscard]] inline bool is_stereo(const Sequence& sequence) {
+  return sequence.calibration.baseline && !sequence.frames.empty() && !sequence.frames.front().right.empty();
+}
+
 /// Holds parts of a calibration that parameter files give (camera.fx, camera.scale ...).
 struct CameraParameters {
   std::optional<double> fx, fy, cx, cy;  ///< pixels

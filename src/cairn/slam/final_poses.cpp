@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/slam/final_poses.h"
 
-#include <limits>
-
 #include "cairn/geometry/camera_pose.h"
-#include "cairn/geometry/stereo_correction.h"
 
 namespace cairn {
 
@@ -24,11 +21,9 @@ void FrameMemory::remember(std::size_t index, const ObservedFrame& observed, con
 void FrameMemory::correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas) {
   for (Remembered& frame : frames_) {
     for (RememberedObservation& seen : frame.seen) {
-      const double corrected =
-          static_cast<double>(seen.d) - field.dot(disparity_field_basis(rig, static_cast<double>(seen.u)));
-      seen.d = static_cast<float>(corrected);  // NaN stays
-      if (!(corrected > 0 && corrected > min_sigmas * static_cast<double>(seen.sigma_d_px)))
-        seen.d = std::numeric_limits<float>::quiet_NaN();
+      Observation observation = seen.observation();
+      correct_disparity(rig, field, min_sigmas, observation);  // NaN stays
+      seen.d = static_cast<float>(observation.d);
     }
   }
 }
@@ -40,9 +35,7 @@ void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const R
   for (const RememberedObservation& seen : remembered.seen) {
     if (map[seen.landmark].erased()) continue;
     points.push_back(map[seen.landmark].point_in_world);
-    observations.push_back({static_cast<double>(seen.u), static_cast<double>(seen.v),
-                            static_cast<double>(seen.d), static_cast<double>(seen.sigma_px),
-                            static_cast<double>(seen.sigma_d_px)});
+    observations.push_back(seen.observation());
   }
   const Rigid3 world_from_reference = map.world_from_camera(*track.reference);
   const Rigid3 start = (world_from_reference * track.reference_from_frame).inverse();

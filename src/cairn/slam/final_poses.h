@@ -15,7 +15,7 @@ class FrameMemory {
   /// Stores the observations of a frame; `index` is its position in the `frames` given to refine().
   void remember(std::size_t index, const ObservedFrame& observed, const FramePose& tracked);
 
-  /// Takes a field off the disparities of all stored observations (correct_disparities).
+  /// Takes a field off the disparities of all stored observations (correct_disparity).
   void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas);
 
   /// Solves again for the poses of the stored frames that are not keyframes, in the map as it is now. A frame
@@ -28,6 +28,11 @@ class FrameMemory {
   struct RememberedObservation {
     LandmarkId landmark;
     float u = 0, v = 0, d = 0, sigma_px = 0, sigma_d_px = 0;
+
+    [[nodiscard]] Observation observation() const {
+      return {static_cast<double>(u), static_cast<double>(v), static_cast<double>(d),
+              static_cast<double>(sigma_px), static_cast<double>(sigma_d_px)};
+    }
   };
   struct Remembered {
     std::size_t index = 0;

@@ -28,9 +28,7 @@ void require_depth(const Sequence& sequence) {
 
 void require_same(const Map& start, const Rig& rig, const SlamOptions& options) {
   const Rig& other = start.rig();
-  const auto differ = [](double a, double b) { return std::abs(a - b) > 1e-6 * std::abs(b); };
-  if (differ(other.fx, rig.fx) || differ(other.fy, rig.fy) || differ(other.cx, rig.cx) ||
-      differ(other.cy, rig.cy) || differ(other.baseline, rig.baseline))
+  if (!are_same(other, rig))
     throw InputError({"the map", 0,
                       fmt::format("the camera fx {} fy {} cx {} cy {} baseline {}", rig.fx, rig.fy, rig.cx,
                                   rig.cy, rig.baseline),
@@ -196,8 +194,7 @@ Sequence with_correction_of(const Map& start, Sequence sequence) {
 /// earlier run, nor in odometry, which never adjusts the whole map.
 StereoNoise calibration_of_disparities(const Sequence& sequence, const SlamOptions& options, bool has_start) {
   StereoNoise noise = options.observer.stereo_noise;
-  const bool is_stereo = !sequence.frames.empty() && !sequence.frames.front().right.empty();
-  if (!is_stereo || has_start || options.odometry) noise.self_calibration = "off";
+  if (!is_stereo(sequence) || has_start || options.odometry) noise.self_calibration = "off";
   return noise;
 }
 

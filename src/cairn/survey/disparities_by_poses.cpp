@@ -26,18 +26,6 @@ std::vector<std::size_t> begins_of_stretches(std::size_t frames) {
   return begins;
 }
 
-/// Makes a frame whose pose is taken as it is given.
-SurveyFrame make_frame(KeyframeId id, ObservedFrame&& observed, const GivenPose& given, double sigma_px) {
-  SurveyFrame frame;
-  frame.id = id;
-  frame.observed = std::move(observed);
-  scale_sigmas(sigma_px, frame.observed);
-  frame.given = given;
-  frame.world_from_camera = frame.odometry = given.world_from_camera;
-  frame.camera_from_world = given.world_from_camera.inverse();
-  return frame;
-}
-
 /// Follows features through one stretch of frames.
 class Stretch {
  public:
@@ -111,9 +99,8 @@ BundleProblem problem_of_stretches(const Sequence& sequence, const GivenPoses& p
 DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
                                         const SurveyOptions& options, const Executor& executor) {
   const std::string& self_calibration = options.observer.stereo_noise.self_calibration;
-  const bool is_stereo = !sequence.frames.empty() && !sequence.frames.front().right.empty();
   DisparityCalibration result;
-  if (self_calibration == "off" || !is_stereo || frames_with_pose(poses).empty()) return result;
+  if (self_calibration == "off" || !is_stereo(sequence) || frames_with_pose(poses).empty()) return result;
   BundleProblem problem = problem_of_stretches(sequence, poses, options, executor);
   if (problem.observations.empty()) return result;
   const double cost_without = adjusted_cost(problem, executor);

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/survey/frames.h"
 
+#include <utility>
+
 #include "cairn/core/error.h"
 
 namespace cairn {
+
+SurveyFrame make_frame(KeyframeId id, ObservedFrame observed, const GivenPose& given, double sigma_px) {
+  SurveyFrame frame;
+  frame.id = id;
+  frame.observed = std::move(observed);
+  scale_sigmas(sigma_px, frame.observed);
+  frame.given = given;
+  frame.world_from_camera = frame.odometry = given.world_from_camera;
+  frame.camera_from_world = given.world_from_camera.inverse();
+  return frame;
+}
 
 void FrameBuffer::push_back(SurveyFrame&& frame) {
   require(frames_.empty() || frame.id.value == frames_.back().id.value + 1, "frames come in their order");

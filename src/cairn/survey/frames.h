@@ -36,6 +36,10 @@ struct SurveyFrame {
   std::vector<LandmarkId> landmarks;
 };
 
+/// Makes a frame with the given pose, and with standard deviations scaled by `sigma_px`.
+[[nodiscard]] SurveyFrame make_frame(KeyframeId id, ObservedFrame observed, const GivenPose& given,
+                                     double sigma_px);
+
 /// Holds the last frames, which have successive numbers.
 class FrameBuffer {
  public:

@@ -11,19 +11,6 @@
 namespace cairn {
 namespace {
 
-/// Makes a frame with the given pose, and with standard deviations scaled by `sigma_px`.
-SurveyFrame make_frame(KeyframeId id, const ObservedFrame& observed, const GivenPose& given,
-                       double sigma_px) {
-  SurveyFrame frame;
-  frame.id = id;
-  frame.observed = observed;
-  scale_sigmas(sigma_px, frame.observed);
-  frame.given = given;
-  frame.world_from_camera = frame.odometry = given.world_from_camera;
-  frame.camera_from_world = given.world_from_camera.inverse();
-  return frame;
-}
-
 /// Returns what is stored of a landmark.
 FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark) {
   FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.observations, {}, {},
