@@ -130,6 +130,11 @@ int run_simulate(int argc, char** argv) {
   CommandLine& room = app.add_command("room", "furnished room seen by a hand-held RGB-D camera, TUM layout");
   add_shared_options(room, room_options, arguments);
   add_noise_option(room, "kinect", "kinect: noise and holes of a Kinect v1", arguments);
+  room.add_option("--depth-noise", room_options.depth_noise,
+                  "standard deviation of the depth, 0 to 100 times a Kinect's")
+      .check(number_in(0, 100))
+      .show_default()
+      .type_name("FACTOR");
 
   CommandLine& street = app.add_command("street", "drive around a block with a stereo camera, KITTI layout");
   add_street_options(street, street_options, arguments);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/covariance.h"
@@ -23,7 +24,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 class PoseSolver {
  public:
   PoseSolver(const Rig& rig, const Correspondences& given, const PoseOptions& options)
-      : rig_(rig), given_(given), options_(options), exact_(given.covariances.empty()) {}
+      : rig_(rig),
+        given_(given),
+        seen_(given.observations.begin(), given.observations.end()),
+        options_(options),
+        exact_(given.covariances.empty()) {}
 
   [[nodiscard]] PoseEstimate run(const CameraFromWorld& start) {
     result_.camera_from_world = start;
@@ -32,11 +37,12 @@ class PoseSolver {
       result_.status = used_.size() < kFewest ? PoseStatus::too_few_points : minimise();
       if (result_.status != PoseStatus::ok && result_.status != PoseStatus::not_converged)
         return std::move(result_);
-      result_.inliers = inliers();
+      const std::vector<std::int32_t> left_out = result_.wrong_disparities;
+      find_inliers();
       if (options_.selection == PoseSelection::all) break;
       truncated_ = true;
-      if (used_ == result_.inliers) break;
-      used_ = result_.inliers;
+      if (used_ == result_.inliers && left_out == result_.wrong_disparities) break;
+      use_inliers();
     }
     result_.rms_px = used_.empty() ? 0 : rms_px();
     if (result_.status == PoseStatus::ok)  // of the last round: one before may end early
@@ -48,9 +54,7 @@ class PoseSolver {
   [[nodiscard]] Eigen::Vector3d in_camera(const CameraFromWorld& pose, std::int32_t i) const {
     return pose * given_.points_in_world[static_cast<std::size_t>(i)];
   }
-  [[nodiscard]] const Observation& seen(std::int32_t i) const {
-    return given_.observations[static_cast<std::size_t>(i)];
-  }
+  [[nodiscard]] const Observation& seen(std::int32_t i) const { return seen_[static_cast<std::size_t>(i)]; }
 
   [[nodiscard]] WhitenedError whitened(std::int32_t i) const {
     const CameraFromWorld& pose = result_.camera_from_world;
@@ -84,16 +88,41 @@ class PoseSolver {
     return kernel_weight(options_.kernel, options_.kernel_scale, squared_error);
   }
 
-  [[nodiscard]] std::vector<std::int32_t> inliers() const {
-    std::vector<std::int32_t> found;
-    for (std::int32_t i = 0; i < static_cast<std::int32_t>(given_.size()); ++i)
-      if (squared(result_.camera_from_world, i) < squared_error_limit(seen(i))) found.push_back(i);
-    return found;
+  /// Judges the observations as they were given.
+  [[nodiscard]] Agreement judge(std::int32_t i) {
+    Observation& seen = seen_[static_cast<std::size_t>(i)];
+    seen = given_.observations[static_cast<std::size_t>(i)];
+    const double all = squared(result_.camera_from_world, i);
+    if (!seen.has_disparity() || all < squared_error_limit(seen)) return agreement_by(all, all, seen);
+    const Observation given = std::exchange(seen, without_disparity(seen));
+    const double pixel = squared(result_.camera_from_world, i);
+    seen = given;
+    return agreement_by(all, pixel, seen);
+  }
+
+  void find_inliers() {
+    const std::vector<Observation> used = seen_;
+    result_.inliers.clear();
+    result_.wrong_disparities.clear();
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(given_.size()); ++i) {
+      const Agreement agreement = judge(i);
+      if (agreement != Agreement::none) result_.inliers.push_back(i);
+      if (agreement == Agreement::pixel) result_.wrong_disparities.push_back(i);
+    }
+    seen_ = used;
+  }
+
+  void use_inliers() {
+    used_ = result_.inliers;
+    seen_.assign(given_.observations.begin(), given_.observations.end());
+    for (const std::int32_t i : result_.wrong_disparities)
+      seen_[static_cast<std::size_t>(i)] = without_disparity(seen(i));
   }
 
   void select_first() {
     if (options_.selection == PoseSelection::inliers) {
-      used_ = inliers();
+      find_inliers();
+      use_inliers();
       return;
     }
     used_.resize(given_.size());
@@ -235,6 +264,7 @@ class PoseSolver {
 
   const Rig& rig_;
   const Correspondences& given_;
+  std::vector<Observation> seen_;  // as given, without the disparities that are left out
   const PoseOptions& options_;
   const bool exact_;
   std::vector<std::int32_t> used_;  // positions of the correspondences that count

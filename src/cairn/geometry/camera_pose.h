@@ -27,8 +27,10 @@ struct Correspondences {
 
 /// Selects the correspondences that determine the pose.
 enum class PoseSelection {
-  all,      ///< every one
-  inliers,  ///< those within squared_error_limit at the start, sorted anew after each round
+  all,  ///< every one
+  /// Those that agree with the pose at the start, sorted anew after each round; one whose pixel alone agrees
+  /// counts without its disparity.
+  inliers,
   /// The first round takes every one in front of the camera, later rounds the inliers: for a rough start.
   inliers_from_all,
 };
@@ -75,9 +77,11 @@ enum class PoseStatus {
 struct PoseEstimate {
   PoseStatus status = PoseStatus::too_few_points;
   CameraFromWorld camera_from_world;  ///< the best so far if status is not ok
-  /// Positions of the correspondences within squared_error_limit, increasing, after the last round that could
-  /// be solved.
+  /// Positions of the correspondences that agree with the pose in full or in their pixel (Agreement),
+  /// increasing, after the last round that could be solved.
   std::vector<std::int32_t> inliers;
+  /// Positions of the inliers that agree in their pixel only, increasing: their disparities are left out.
+  std::vector<std::int32_t> wrong_disparities;
   /// Covariance of the left perturbation (rotation, translation) for the given standard deviations. Accounts
   /// for the precision lost by the kernel and the limit (KernelMoments). Zero unless status is ok.
   Matrix6d covariance = Matrix6d::Zero();

@@ -202,5 +202,50 @@ TEST(Whiten, the_derivative_is_that_of_the_error) {
   }
 }
 
+/// Stereo observations, of which the first `wrong` have disparities of another surface.
+PoseScene with_wrong_disparities(int wrong) {
+  PoseScene scene = make_pose_scene(7, {.count = 200, .noise = 0.3, .stereo = true});
+  for (int i = 0; i < wrong; ++i) {
+    Observation& seen = scene.seen[static_cast<std::size_t>(i)];
+    if (seen.has_disparity()) seen.d *= 1.5;
+  }
+  return scene;
+}
+
+TEST(CameraPose, a_wrong_disparity_does_not_throw_its_pixel_away) {
+  const PoseScene scene = with_wrong_disparities(120);
+  const PoseEstimate found =
+      estimate_pose(kPoseRig, scene.correspondences(), nudged(scene.camera_from_world, 0.05));
+  ASSERT_TRUE(found.found());
+  EXPECT_GT(found.inliers.size(), 190U);
+  EXPECT_GT(found.wrong_disparities.size(), 70U);  // of 80
+  for (const std::int32_t i : found.wrong_disparities) EXPECT_LT(i, 120);
+  EXPECT_LT(error_of(found, scene).norm(), 5e-3);
+}
+
+TEST(CameraPose, leaves_a_wrong_disparity_out_of_its_result) {
+  const PoseScene scene = with_wrong_disparities(120);
+  PoseScene without = scene;
+  for (std::size_t i = 0; i < 120; ++i) testkit::forget_disparity(without.seen[i]);
+  const auto start = nudged(scene.camera_from_world, 0.05);
+  const PoseEstimate found = estimate_pose(kPoseRig, scene.correspondences(), start),
+                     expected = estimate_pose(kPoseRig, without.correspondences(), start);
+  EXPECT_LT(motion_norm(found.camera_from_world * expected.camera_from_world.inverse()), 1e-3);
+}
+
+TEST(CameraPose, judges_pixel_and_disparity_apart) {
+  const Eigen::Vector3d point(0, 0, 2);
+  const Eigen::Vector3d exact = kPoseRig.project(point);
+  const auto judged = [&](double du, double dd) {
+    return agreement(kPoseRig, point, {exact.x() + du, exact.y(), exact.z() + dd, 1, 0.1});
+  };
+  EXPECT_EQ(judged(0.5, 0.1), Agreement::full);
+  EXPECT_EQ(judged(0.5, 5), Agreement::pixel);
+  EXPECT_EQ(judged(5, 5), Agreement::none);
+  EXPECT_EQ(judged(2.7, 0), Agreement::full);     // within the limit of three coordinates
+  EXPECT_EQ(judged(2.4, 0.25), Agreement::none);  // neither is grossly wrong, together they are too far off
+  EXPECT_EQ(agreement(kPoseRig, -point, {exact.x(), exact.y()}), Agreement::none);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -10,6 +10,10 @@ constexpr double kInlierLimit1 = 3.841;  ///< of a distance from a line
 constexpr double kInlierLimit2 = 5.991;  ///< of (u, v)
 constexpr double kInlierLimit3 = 7.815;  ///< of (u, v, d), and of a point in space
 
+/// The squared error, in variances, above which one coordinate is grossly wrong: three standard deviations,
+/// which a correct one exceeds with a probability of 0.003.
+constexpr double kGrossLimit1 = 9.0;
+
 /// Square root of kInlierLimit2, in standard deviations: a robust kernel of this scale does not reduce the
 /// weight of 95 % of the correct (u, v).
 constexpr double kInlierScale2 = 2.448;

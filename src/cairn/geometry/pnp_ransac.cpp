@@ -23,6 +23,9 @@ CameraPose pose_of(const Rigid3& camera_from_world) {
   return {camera_from_world.matrix3(), camera_from_world.translation};
 }
 
+/// Bounds what a disparity adds to the squared error: however wrong it is, the pixel may be right.
+constexpr double kDisparityBound = kInlierLimit3 - kInlierLimit2;
+
 struct PnpProblem {
   using Model = CameraPose;
   static constexpr std::size_t kSampleSize = 3, kMaxModels = 4;
@@ -47,7 +50,11 @@ struct PnpProblem {
   }
 
   [[nodiscard]] double squared_error(const Model& pose, std::size_t i) const {
-    return cairn::squared_error(rig, pose.rotation * points[i] + pose.translation, seen[i]);
+    const Eigen::Vector3d point = pose.rotation * points[i] + pose.translation;
+    const double all = cairn::squared_error(rig, point, seen[i]);
+    if (!seen[i].has_disparity() || all < kInlierLimit2) return all;
+    const double pixel = cairn::squared_error(rig, point, without_disparity(seen[i]));
+    return std::min(all, pixel + kDisparityBound);
   }
   [[nodiscard]] double limit(std::size_t i) const { return squared_error_limit(seen[i]); }
 
@@ -55,8 +62,10 @@ struct PnpProblem {
     std::vector<Eigen::Vector3d> inlier_points;
     std::vector<Observation> inlier_observations;
     for (const std::int32_t index : inliers) {
-      inlier_points.push_back(points[static_cast<std::size_t>(index)]);
-      inlier_observations.push_back(seen[static_cast<std::size_t>(index)]);
+      const auto i = static_cast<std::size_t>(index);
+      inlier_points.push_back(points[i]);
+      const auto found = agreement(rig, pose.rotation * points[i] + pose.translation, seen[i]);
+      inlier_observations.push_back(found == Agreement::pixel ? without_disparity(seen[i]) : seen[i]);
     }
     const CameraFromWorld start({Eigen::Quaterniond(pose.rotation), pose.translation});
     constexpr int kIterations = 3;  // RANSAC asks again with the inliers of the result
@@ -71,7 +80,7 @@ struct PnpProblem {
     return improved;
   }
 
-  /// A wrong pixel lies in the disc around the place where the pose has it; a wrong disparity makes it rarer.
+  /// A wrong pixel lies in the disc around the place where the pose has it.
   [[nodiscard]] double chance() const {
     std::vector<Eigen::Vector2d> pixels;
     double area = 0;

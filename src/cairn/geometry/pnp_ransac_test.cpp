@@ -126,5 +126,14 @@ TEST(PnpRansac, repeats_itself_from_the_seed) {
   EXPECT_EQ(a.camera_from_world.translation, b.camera_from_world.translation);
 }
 
+TEST(PnpRansac, finds_the_pose_although_most_disparities_are_wrong) {
+  Scene scene = make_scene(200, 40, 45);
+  for (std::size_t i = 0; i < 160; ++i) scene.seen[i].d *= 0.7;
+  const PnpResult result = solve_pnp_ransac(kRig, scene.points, scene.seen, {});
+  ASSERT_TRUE(result.found());
+  EXPECT_LT(motion_norm(result.camera_from_world * scene.camera_from_world.inverse()), 0.02);
+  EXPECT_GT(result.inliers.size(), 135U);  // of 160: 0.95 of pixels are within their limit
+}
+
 }  // namespace
 }  // namespace cairn

@@ -90,4 +90,33 @@ struct Rig {
   return seen.has_disparity() ? kInlierLimit3 : kInlierLimit2;
 }
 
+/// Says what of an observation agrees with a point.
+enum class Agreement {
+  none,
+  pixel,  ///< u and v; its disparity is grossly wrong, as at an outline, where it is that of another surface
+  full,   ///< everything that was measured
+};
+
+/// Judges an observation by its squared errors in variances: `all` of (u, v, d), `pixel` of (u, v). The
+/// observation agrees in full below squared_error_limit, else in its pixel if that is below its own limit and
+/// what the disparity adds is above kGrossLimit1.
+[[nodiscard]] inline Agreement agreement_by(double all, double pixel, const Observation& seen) {
+  if (all < squared_error_limit(seen)) return Agreement::full;
+  const bool is_pixel_right = seen.has_disparity() && pixel < kInlierLimit2 && all - pixel > kGrossLimit1;
+  return is_pixel_right ? Agreement::pixel : Agreement::none;
+}
+
+/// Returns the observation as if its disparity had not been measured.
+[[nodiscard]] inline Observation without_disparity(Observation seen) {
+  seen.d = std::numeric_limits<double>::quiet_NaN();
+  return seen;
+}
+
+/// Judges an observation of a point (agreement_by).
+[[nodiscard]] inline Agreement agreement(const Rig& rig, const Eigen::Vector3d& point_in_camera,
+                                         const Observation& seen) {
+  return agreement_by(squared_error(rig, point_in_camera, seen),
+                      squared_error(rig, point_in_camera, without_disparity(seen)), seen);
+}
+
 }  // namespace cairn

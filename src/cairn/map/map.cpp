@@ -87,6 +87,21 @@ void Map::remove_observation(LandmarkId id, KeyframeId from) {
   seen.observations.erase(place);
 }
 
+void Map::remove_disparity(LandmarkId id, KeyframeId shown_by) {
+  Observation* wrong = nullptr;
+  bool has_other = false;
+  for (const ObservationRef& ref : landmark(id).observations) {
+    Observation& seen = keyframe(ref.keyframe).observed.observations[static_cast<std::size_t>(ref.feature)];
+    ref.keyframe == shown_by ? void(wrong = &seen) : void(has_other |= seen.has_disparity());
+  }
+  if (wrong == nullptr) return;
+  if (!has_other) return remove_observation(id, shown_by);
+  ObservedFrame& frame = keyframe(shown_by).observed;
+  const auto feature = static_cast<std::size_t>(wrong - frame.observations.data());
+  *wrong = without_disparity(*wrong);
+  frame.points_in_camera[feature] = point_in_camera(rig(), *wrong);
+}
+
 void Map::merge(LandmarkId gone, LandmarkId kept) {
   require(gone != kept, "two landmarks to merge");
   const std::vector<ObservationRef> observations = (*this)[gone].observations;
@@ -140,6 +155,11 @@ void Map::correct_disparities(const DisparityField& field, double min_sigmas) {
   }
   if (!header_.right_correction) header_.right_correction.emplace();
   header_.right_correction->disparity += field;
+}
+
+void Map::weigh_disparities(const DisparityNoise& noise) {
+  for (Keyframe& keyframe : keyframes_) cairn::weigh_disparities(rig(), noise, keyframe.observed);
+  header_.depth_noise = noise;
 }
 
 void Map::end_recording() {

@@ -87,6 +87,9 @@ class Map {
   /// Removes the observation of a landmark in a keyframe, if there is one. A landmark without observations is
   /// erased.
   void remove_observation(LandmarkId landmark, KeyframeId keyframe);
+  /// Takes the disparity by which a keyframe shows a landmark for not measured. If the landmark then has no
+  /// other, removes the observation instead: a landmark's depth is to be known without motion, too.
+  void remove_disparity(LandmarkId landmark, KeyframeId keyframe);
   /// Makes one landmark of two: erases `gone` and moves its observations to `kept`, except in keyframes that
   /// show both, in which they are removed. Throws PreconditionError if the two are the same.
   void merge(LandmarkId gone, LandmarkId kept);
@@ -101,6 +104,8 @@ class Map {
   /// Takes a field off the disparities of all keyframes (cairn::correct_disparities), and adds it to the
   /// header's correction. Landmarks that one keyframe alone shows move to where it shows them then.
   void correct_disparities(const DisparityField& field, double min_sigmas);
+  /// Sets the standard deviations of all disparities to those of `noise`, and the header's.
+  void weigh_disparities(const DisparityNoise& noise);
   /// Ends the recording that the keyframes are of: their FrameIds become invalid, because the next recording
   /// counts its frames from 0 again.
   void end_recording();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cairn/features/features.h"
+#include "cairn/geometry/disparity_noise.h"
 #include "cairn/geometry/geodetic.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/geometry/stereo_correction.h"
@@ -26,6 +27,7 @@ struct MapHeader {
   /// What was taken off the right images' rows and the disparities of a stereo pair; nullopt for nothing. An
   /// image of the same pair fits the map after the same correction.
   std::optional<StereoCorrection> right_correction;
+  std::optional<DisparityNoise> depth_noise;  ///< of the RGB-D camera that made it; nullopt for others
   DescriptorKind descriptor;
   std::string world = "camera of the first keyframe";  ///< frame that poses and points are in, in words
   std::optional<GeodeticOrigin> origin;                ///< origin of a georeferenced world

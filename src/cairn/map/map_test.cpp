@@ -181,5 +181,51 @@ TEST(Map, refuses_what_makes_no_sense) {
   EXPECT_THROW((void)map.add_keyframe(frame_with_features(1), {}, {3}, 0), PreconditionError);
 }
 
+/// Three keyframes of four features at a depth of 2 m, whose first ones show a landmark.
+Map map_with_depths() {
+  Map map(Rig{500, 500, 320, 240, 0.1}, "ORB");
+  for (std::int32_t k = 0; k < 3; ++k) {
+    ObservedFrame frame = frame_with_features(4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      frame.observations[i] = {300, 200, 25, 1, 0.5};
+      frame.points_in_camera[i] = point_in_camera(map.rig(), frame.observations[i]);
+    }
+    (void)map.add_keyframe(std::move(frame), pose(k), {k - 1}, 0);
+  }
+  const LandmarkId landmark = map.add_landmark({0, 0, 2}, {kFirst, 0});
+  map.add_observation(landmark, {kSecond, 1});
+  return map;
+}
+
+TEST(Map, a_disparity_can_be_wrong_alone) {
+  Map map = map_with_depths();
+  map.remove_disparity({0}, kSecond);
+  EXPECT_FALSE(map[kSecond].observed.observations[1].has_disparity());
+  EXPECT_FALSE(map[kSecond].observed.points_in_camera[1].allFinite());
+  EXPECT_TRUE(map[kSecond].observed.observations[0].has_disparity());
+  EXPECT_EQ(map[LandmarkId{0}].observations.size(), 2U);
+  map.remove_disparity({0}, kThird);  // shows it not
+  EXPECT_EQ(map[LandmarkId{0}].observations.size(), 2U);
+}
+
+TEST(Map, a_landmark_keeps_its_last_disparity) {
+  Map map = map_with_depths();
+  map.remove_disparity({0}, kSecond);
+  map.remove_disparity({0}, kFirst);
+  EXPECT_EQ(map[LandmarkId{0}].observations, (std::vector<ObservationRef>{{kSecond, 1}}));
+  EXPECT_TRUE(map[kFirst].observed.observations[0].has_disparity());
+}
+
+TEST(Map, weighs_all_disparities) {
+  Map map = map_with_depths();
+  map.remove_disparity({0}, kSecond);
+  map.weigh_disparities({0.3, 0.032});
+  // the derivative of the disparity by the depth is d^2 / (fx b): 12.5 px per metre
+  EXPECT_DOUBLE_EQ(map[kFirst].observed.observations[2].sigma_d_px, 0.5);
+  EXPECT_FALSE(map[kSecond].observed.observations[1].has_disparity());
+  ASSERT_TRUE(map.header().depth_noise);
+  EXPECT_EQ(map.header().depth_noise->sigma_px, 0.3);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -29,6 +29,11 @@ void correct_disparities(const Rig& rig, const DisparityField& field, double min
   }
 }
 
+void weigh_disparities(const Rig& rig, const DisparityNoise& noise, ObservedFrame& frame) {
+  for (Observation& seen : frame.observations)
+    if (seen.has_disparity()) seen.sigma_d_px = noise.at(rig, seen.d);
+}
+
 double median_depth(const ObservedFrame& frame) {
   std::vector<double> depths;
   for (const Eigen::Vector3d& point : frame.points_in_camera)

@@ -6,6 +6,7 @@
 
 #include "cairn/core/id.h"
 #include "cairn/features/features.h"
+#include "cairn/geometry/disparity_noise.h"
 #include "cairn/geometry/rig.h"
 #include "cairn/geometry/stereo_correction.h"
 
@@ -31,6 +32,9 @@ void correct_disparity(const Rig& rig, const DisparityField& field, double min_s
 /// Takes a field off the disparities (correct_disparity) and computes their points again.
 void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas,
                          ObservedFrame& frame);
+
+/// Sets the standard deviations of the disparities to those of `noise`.
+void weigh_disparities(const Rig& rig, const DisparityNoise& noise, ObservedFrame& frame);
 
 /// Computes the median of the features' depths, metres; NaN if none has a depth.
 [[nodiscard]] double median_depth(const ObservedFrame& frame);

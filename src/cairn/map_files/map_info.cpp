@@ -57,6 +57,10 @@ Json to_json(const GeodeticOrigin& origin) {
           {"height_m", number(origin.height_m)}};
 }
 
+Json to_json(const DisparityNoise& noise) {
+  return {{"sigma_disparity_px", number(noise.sigma_px)}, {"sigma_depth_m", number(noise.sigma_m)}};
+}
+
 Json to_json(const DescriptorKind& kind) {
   return {{"name", kind.name}, {"norm", to_string(kind.norm)}, {"bytes", kind.bytes}};
 }
@@ -67,6 +71,7 @@ Json header_members(const MapInfo& info, std::size_t keyframes) {
   if (info.origin) members["origin"] = to_json(*info.origin);
   members["rig"] = to_json(info.rig);
   if (info.right_correction) members["right_correction"] = to_json(*info.right_correction);
+  if (info.depth_noise) members["depth_noise"] = to_json(*info.depth_noise);
   members["image"] = {{"width", info.width}, {"height", info.height}};
   members["descriptor"] = to_json(info.descriptor);
   members["settings"] = info.settings;

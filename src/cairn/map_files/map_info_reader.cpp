@@ -111,6 +111,7 @@ class MapInfoReader {
     header.rig = read_rig(member(json, "rig"));
     if (json.contains("right_correction"))
       header.right_correction = read_correction(json["right_correction"]);
+    if (json.contains("depth_noise")) header.depth_noise = read_noise(json["depth_noise"]);
     const Json& image = member(json, "image");
     header.width = whole_member<std::int32_t>(image, "width");
     header.height = whole_member<std::int32_t>(image, "height");
@@ -118,6 +119,15 @@ class MapInfoReader {
       fail("a width and height of 0 or more", fmt::format("{} and {}", header.width, header.height));
     header.descriptor = read_descriptor(member(json, "descriptor"));
     header.settings = text_member(json, "settings");
+  }
+
+  DisparityNoise read_noise(const Json& json) const {
+    const DisparityNoise noise{number_member(json, "sigma_disparity_px"),
+                               number_member(json, "sigma_depth_m")};
+    if (!(noise.sigma_px > 0 && noise.sigma_m >= 0))
+      fail("a 'sigma_disparity_px' above 0 and a 'sigma_depth_m' of 0 or more",
+           fmt::format("{} and {}", noise.sigma_px, noise.sigma_m));
+    return noise;
   }
 
   GeodeticOrigin read_origin(const Json& json) const {

@@ -95,6 +95,16 @@ TEST(MapInfo, keeps_what_was_taken_off_a_pair) {
   EXPECT_EQ(read.right_correction->disparity, correction.disparity);
 }
 
+TEST(MapInfo, keeps_the_noise_of_depth) {
+  MapInfo info = small_info();
+  EXPECT_FALSE(written_and_read(info).depth_noise);
+  info.depth_noise = DisparityNoise{1.0 / 3, 0.0012};
+  const MapInfo read = written_and_read(info);
+  ASSERT_TRUE(read.depth_noise);
+  EXPECT_EQ(read.depth_noise->sigma_px, 1.0 / 3);
+  EXPECT_EQ(read.depth_noise->sigma_m, 0.0012);
+}
+
 TEST(MapInfo, holds_any_text) {
   MapInfo info = small_info();
   info.world = "a \"quote\", a \\ and a line,\nits break\t\x01 and \xC3\xA9";

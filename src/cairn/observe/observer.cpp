@@ -3,30 +3,88 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
+#include "cairn/core/median.h"
 #include "cairn/matching/stereo_matching.h"
 
 namespace cairn {
 namespace {
 
+/// Looks at the depths around a feature.
+class DepthWindow {
+ public:
+  DepthWindow(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise)
+      : depth_(depth), rig_(rig) {
+    u_ = static_cast<int>(std::lround(keypoint.u));
+    v_ = static_cast<int>(std::lround(keypoint.v));
+    radius_ = static_cast<int>(std::lround(noise.jump_radius * static_cast<double>(keypoint.sigma_px)));
+  }
+
+  /// Returns the depth in the middle, metres; 0 if there is none.
+  [[nodiscard]] double depth() const {
+    return depth_.contains(u_, v_) ? static_cast<double>(depth_(u_, v_)) : 0;
+  }
+
+  /// Returns the largest difference to the middle's disparity, pixels.
+  [[nodiscard]] double largest_difference() const {
+    const double middle = rig_.disparity(depth());
+    double largest = 0;
+    for_each([&](int x, int y) {
+      if (const auto d = disparity(x, y)) largest = std::max(largest, std::abs(*d - middle));
+    });
+    return largest;
+  }
+
+  /// Returns the standard deviation of a disparity, pixels, by the median second difference along the rows,
+  /// which neither a slope nor one outline changes much; 0 if too few depths are known.
+  [[nodiscard]] double scatter() const {
+    std::vector<double> differences;
+    for_each([&](int x, int y) {
+      const auto before = disparity(x - 1, y), here = disparity(x, y), after = disparity(x + 1, y);
+      if (before && here && after) differences.push_back(std::abs(*before - 2 * *here + *after));
+    });
+    constexpr std::size_t kFewest = 10;
+    constexpr double kPerMedian = 1.4826 / 2.449;  // of normal noise: 1 / 0.6745, over sqrt(1 + 4 + 1)
+    return differences.size() < kFewest ? 0 : kPerMedian * median(std::move(differences));
+  }
+
+ private:
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (int y = std::max(0, v_ - radius_); y <= std::min(depth_.height() - 1, v_ + radius_); ++y)
+      for (int x = std::max(0, u_ - radius_); x <= std::min(depth_.width() - 1, u_ + radius_); ++x)
+        visit(x, y);
+  }
+  [[nodiscard]] std::optional<double> disparity(int x, int y) const {
+    if (!depth_.contains(x, y) || !(depth_(x, y) > 0)) return std::nullopt;
+    return rig_.disparity(static_cast<double>(depth_(x, y)));
+  }
+
+  const DepthImage& depth_;
+  const Rig& rig_;
+  int u_, v_, radius_;
+};
+
+/// Tells whether the depth around a feature jumps. Its noise is at least a Kinect's; if it is not stated,
+/// that of the neighbourhood.
+bool jumps(const DepthWindow& window, const DepthNoise& noise) {
+  constexpr double kKinectSigmaPx = 0.09;
+  const double largest = window.largest_difference();
+  const double sigma = std::max(kKinectSigmaPx, noise.sigma_disparity_px);
+  if (largest <= noise.jump_sigmas * sigma) return false;
+  return !noise.is_estimated() || largest > noise.jump_sigmas * window.scatter();
+}
+
 /// Returns the depth at the nearest pixel, metres; 0 if unknown, out of range, or at a jump of the depth: a
 /// corner on an outline belongs to one side, its depth may come from the other, and the inliers among these
 /// shorten the motion by 1 to 2 %.
 double depth_at(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise) {
-  const int u = static_cast<int>(std::lround(keypoint.u)), v = static_cast<int>(std::lround(keypoint.v));
-  if (!depth.contains(u, v)) return 0;
-  const auto z = static_cast<double>(depth(u, v));
-  if (!(z >= noise.min_depth && z <= noise.max_depth)) return 0;
-  const int radius =
-      static_cast<int>(std::lround(noise.jump_radius * static_cast<double>(keypoint.sigma_px)));
-  const double jump = noise.jump_sigmas * noise.sigma_disparity_px;
-  for (int y = std::max(0, v - radius); y <= std::min(depth.height() - 1, v + radius); ++y) {
-    for (int x = std::max(0, u - radius); x <= std::min(depth.width() - 1, u + radius); ++x) {
-      const auto other = static_cast<double>(depth(x, y));
-      if (other > 0 && std::abs(rig.disparity(other) - rig.disparity(z)) > jump) return 0;
-    }
-  }
-  return z;
+  const DepthWindow window(depth, keypoint, rig, noise);
+  const double z = window.depth();
+  const bool is_usable = z >= noise.min_depth && z <= noise.max_depth && !jumps(window, noise);
+  return is_usable ? z : 0;
 }
 
 Observation make_observation(const Rig& rig, const Eigen::Vector2d& ray, const Keypoint& keypoint,
@@ -35,8 +93,8 @@ Observation make_observation(const Rig& rig, const Eigen::Vector2d& ray, const K
   seen.u = rig.fx * ray.x() + rig.cx;
   seen.v = rig.fy * ray.y() + rig.cy;
   seen.sigma_px = static_cast<double>(keypoint.sigma_px);
-  seen.sigma_d_px = noise.sigma_disparity_px;
   if (depth > 0) seen.d = rig.disparity(depth);
+  seen.sigma_d_px = depth > 0 ? noise.at_start().at(rig, seen.d) : noise.at_start().sigma_px;
   return seen;
 }
 
@@ -56,6 +114,11 @@ void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, Obse
 }
 
 }  // namespace
+
+DisparityNoise DepthNoise::at_start() const {
+  constexpr double kCautiousPx = 1;  // ten times a Kinect's
+  return {is_estimated() ? kCautiousPx : sigma_disparity_px, sigma_depth_m};
+}
 
 Rig rig_of(const Calibration& calibration, const DepthNoise& noise) {
   const Camera& camera = calibration.camera;

@@ -10,9 +10,13 @@ void visit(DepthNoise& depth, ParameterVisitor& visitor) {
   visitor.parameter({"depth.virtual_baseline", above(0, "metres"),
                      "Baseline b by which an RGB-D camera's depth z becomes a disparity fx b / z."},
                     depth.baseline);
-  visitor.parameter({"depth.sigma_disparity_px", above(0, "pixels"),
-                     "Standard deviation of such a disparity; that of a depth z is sigma z^2 / (fx b)."},
+  visitor.parameter({"depth.sigma_disparity_px", from(0, "pixels"),
+                     "Standard deviation of such a disparity, that of a depth z is sigma z^2 / (fx b); 0: "
+                     "estimated from the recording."},
                     depth.sigma_disparity_px);
+  visitor.parameter({"depth.sigma_m", from(0, "metres"),
+                     "Standard deviation of a depth beside that of its disparity, if that is stated."},
+                    depth.sigma_depth_m);
   visitor.parameter({"depth.jump_radius_px", from_to(0, 100, "pixels"),
                      "A feature nearer than this to a jump of the depth has no depth; times its scale."},
                     depth.jump_radius);

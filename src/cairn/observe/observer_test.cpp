@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cairn/core/random.h"
 #include "cairn/testing/image/textured_pair.h"
 
 namespace cairn {
@@ -53,7 +54,7 @@ TEST(ObserveRgbd, depth_becomes_disparity_of_a_virtual_baseline) {
   for (std::size_t i = 0; i < observed.observations.size(); ++i) {
     const Observation& seen = observed.observations[i];
     EXPECT_NEAR(seen.d, rig.disparity(static_cast<double>(kDepth)), 1e-9);
-    EXPECT_EQ(seen.sigma_d_px, options.depth_noise.sigma_disparity_px);
+    EXPECT_EQ(seen.sigma_d_px, options.depth_noise.at_start().sigma_px);
     const Eigen::Vector3d& point = observed.points_in_camera[i];
     EXPECT_NEAR(point.z(), static_cast<double>(kDepth), 1e-9);
     EXPECT_LT((rig.project(point) - Eigen::Vector3d(seen.u, seen.v, seen.d)).norm(), 1e-9);
@@ -96,6 +97,38 @@ TEST(ObserveRgbd, depth_beside_a_jump_is_not_believed) {
     }
   }
   EXPECT_GT(beside, 3);
+}
+
+/// A wall at 2 m whose left half, if there is a `jump`, is at 1 m; disparities have a noise of `sigma_px`.
+Frame noisy_frame(double sigma_px, bool jump) {
+  const Rig rig = rig_of(calibration(), {});
+  Random random(9);
+  Frame frame = rgbd_frame();
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const double depth = jump && u < kWidth / 2 ? 1 : static_cast<double>(kDepth);
+      frame.depth(u, v) = static_cast<float>(rig.depth(rig.disparity(depth) + sigma_px * random.normal()));
+    }
+  }
+  return frame;
+}
+
+TEST(ObserveRgbd, noise_of_the_depth_is_no_jump) {
+  const Observer observer(calibration(), {});
+  const int all = with_depth(observer.observe(noisy_frame(0, false)));
+  EXPECT_EQ(all, with_depth(observer.observe(rgbd_frame())));
+  for (const double sigma_px : {0.05, 0.3, 0.6})
+    EXPECT_GT(with_depth(observer.observe(noisy_frame(sigma_px, false))), 0.97 * all) << sigma_px;
+}
+
+TEST(ObserveRgbd, a_jump_is_seen_in_noise) {
+  const ObserverOptions options;
+  const ObservedFrame observed = Observer(calibration(), options).observe(noisy_frame(0.3, true));
+  for (const Observation& seen : observed.observations) {
+    const double from_jump = std::abs(seen.u - (kWidth / 2.0 - 0.5));
+    if (from_jump > options.depth_noise.jump_radius * seen.sigma_px - 1) continue;
+    EXPECT_FALSE(seen.has_disparity()) << seen.u;
+  }
 }
 
 TEST(ObserveRgbd, pixels_are_undistorted) {

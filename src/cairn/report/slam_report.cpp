@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cairn/core/text.h"
+#include "cairn/report/depth_noise.h"
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
@@ -61,6 +62,7 @@ std::string format_slam_json(const Sequence& sequence, const SlamResult& result,
   json["landmarks"] = result.map.landmark_ids().size();
   json["stereo_calibration"] =
       to_json(StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
+  json["depth_noise"] = to_json(result.depth_noise);
   json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = json_of(summary.ate_m);
   json["cloud_points"] = summary.cloud_points;

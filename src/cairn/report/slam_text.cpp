@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cairn/report/depth_noise.h"
 #include "cairn/report/landmark_picture.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
@@ -54,6 +55,7 @@ void add_map(const SlamResult& result, TextBuilder& text) {
            loops.closed, loops.joined, loops.rejected + loops.unconfirmed, loops.tried);
   const std::string pair = describe({result.row_errors, result.rows_aligned, result.disparity_calibration});
   if (!pair.empty()) text.add("{}\n", pair);
+  if (const std::string depth = describe(result.depth_noise); !depth.empty()) text.add("{}\n", depth);
   if (loops.components_joined > 0) text.add("components   {} joined\n", loops.components_joined);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cairn/report/depth_noise.h"
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/landmark_picture.h"
 #include "cairn/report/ratio.h"
@@ -52,6 +53,7 @@ Json to_json(const SurveyResult& result) {
                          {"dominated_by_poses", counts.dominated_by_poses},
                          {"stated_position_std_m", result.stated.position_m},
                          {"stated_rotation_std_deg", result.stated.rotation_deg}};
+  json["depth_noise"] = to_json(result.depth_noise);
   json["stereo_calibration"] =
       to_json(StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
   json["pose_check"] = to_json(result.pose_check);
@@ -118,6 +120,7 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
   const std::string pair = describe(
       StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
   if (!pair.empty()) text.add("\n{}", pair);
+  if (const std::string depth = describe(result.depth_noise); !depth.empty()) text.add("\n{}", depth);
   text.add("\nfeatures     {:.0f} a frame, {:.0f} with depth, {:.0f} matched to a track\n",
            ratio(counts.features, counts.frames), ratio(counts.measured, counts.frames),
            ratio(counts.matched, counts.frames));

@@ -94,7 +94,7 @@ void mark_shadows(const float* depth, int width, double focal_baseline, std::vec
 double measured_depth(double depth, const DepthSensor& sensor, double normal) {
   const double focal_baseline = sensor.focal_length * sensor.baseline;
   const double step = depth * depth * sensor.disparity_step / focal_baseline;  // metres
-  const double deviation = kinect_depth_deviation(depth);
+  const double deviation = sensor.noise_factor * kinect_depth_deviation(depth);
   const double rest = std::sqrt(std::max(0.0, deviation * deviation - step * step / 12));
   const double disparity = focal_baseline / std::max(0.1, depth + rest * normal);
   const double steps = std::max(1.0, std::round(disparity / sensor.disparity_step));
@@ -106,6 +106,7 @@ double measured_depth(double depth, const DepthSensor& sensor, double normal) {
 void DepthSensor::validate() const {
   require(min_depth > 0 && max_depth > min_depth, "a depth sensor's range is above 0 and not empty");
   require(baseline > 0 && focal_length > 0 && disparity_step > 0, "a depth sensor measures disparity");
+  require(noise_factor >= 0, "noise_factor is at least 0");
   require(full_view_deg < no_view_deg && no_view_deg <= 90, "full_view_deg < no_view_deg <= 90");
 }
 

@@ -32,6 +32,7 @@ struct DepthSensor {
   double baseline = 0.075;        ///< metres, projector to camera
   double focal_length = 580.0;    ///< pixels, of the infrared camera: scale of the disparity
   double disparity_step = 0.125;  ///< pixels
+  double noise_factor = 1;        ///< of kinect_depth_deviation
   double full_view_deg = 75.0;    ///< angle between ray and normal up to which depth is always found
   double no_view_deg = 84.0;      ///< angle from which depth is never found
   std::uint64_t seed = 0;

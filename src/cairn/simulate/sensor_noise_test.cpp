@@ -59,6 +59,14 @@ TEST(depth_sensor, deviation_follows_the_model) {
   }
 }
 
+TEST(depth_sensor, noise_is_as_many_times_the_models) {
+  DepthSensor sensor;
+  sensor.seed = 1;
+  sensor.noise_factor = 10;
+  const Moments m = moments_of(sense_depth(flat(2.0F), test_camera(), kScale, sensor), kScale);
+  EXPECT_NEAR(m.deviation, 10 * kinect_depth_deviation(2), 0.5 * kinect_depth_deviation(2));
+}
+
 TEST(depth_sensor, depths_are_whole_steps_of_disparity) {
   const DepthSensor sensor;
   const RawDepthImage raw = sense_depth(flat(4.0F), test_camera(), 1e4, sensor);

@@ -82,6 +82,7 @@ void SimulateRoomOptions::validate() const {
              camera.fy > 0,
          "camera", "a pinhole camera with pixels and focal lengths", camera.fx);
   expect(depth_scale > 0, "depth_scale", "units per metre above 0", depth_scale);
+  expect(depth_noise >= 0 && depth_noise <= 100, "--depth-noise", "0 to 100 times a Kinect's", depth_noise);
   expect(image_deviation >= 0, "image_deviation", "0 or more grey levels", image_deviation);
 }
 
@@ -133,6 +134,7 @@ SimulatedRgbdFrame SimulatedRoom::render(int frame) const {
   DepthSensor depth_sensor;
   depth_sensor.seed = options_.seed;
   depth_sensor.frame = sensor.frame;
+  depth_sensor.noise_factor = options_.depth_noise;
   result.color = expose_rgb(seen.light, sensor);
   result.depth = sense_depth(result.depth_true, options_.camera, options_.depth_scale, depth_sensor);
   return result;

@@ -36,6 +36,7 @@ struct SimulateRoomOptions {
   RgbdNoise noise = RgbdNoise::kinect;
   /// Standard deviation of the image noise, grey levels; none with RgbdNoise::none.
   float image_deviation = 2;
+  double depth_noise = 1;  ///< standard deviation of the depth, times a Kinect's; none with RgbdNoise::none
   std::uint64_t seed = 1;  ///< determines the textures and all noise
 
   /// Throws InputError that names the option of the command line if no camera could have the value.

@@ -2,24 +2,10 @@
 #include "cairn/slam/disparity_calibrator.h"
 
 #include <algorithm>
-#include <map>
 
 #include "cairn/slam/window.h"
 
 namespace cairn {
-
-namespace {
-
-/// Returns the component with the most keyframes, the first of several.
-std::int32_t largest_component(const Map& map) {
-  std::map<std::int32_t, int> counts;
-  for (const KeyframeId id : map.keyframe_ids()) ++counts[map[id].component];
-  const auto most = std::max_element(counts.begin(), counts.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
-  return most == counts.end() ? 0 : most->first;
-}
-
-}  // namespace
 
 DisparityCalibrator::DisparityCalibrator(const Rig& rig, const StereoNoise& noise, const Executor& executor)
     : rig_(rig),

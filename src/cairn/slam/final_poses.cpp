@@ -28,6 +28,13 @@ void FrameMemory::correct_disparities(const Rig& rig, const DisparityField& fiel
   }
 }
 
+void FrameMemory::weigh_disparities(const Rig& rig, const DisparityNoise& noise) {
+  for (Remembered& frame : frames_) {
+    for (RememberedObservation& seen : frame.seen)
+      if (seen.d == seen.d) seen.sigma_d_px = static_cast<float>(noise.at(rig, static_cast<double>(seen.d)));
+  }
+}
+
 void FrameMemory::refine_one(const Map& map, const SlamOptions& options, const Remembered& remembered,
                              TrackingResult& track) {
   std::vector<Eigen::Vector3d> points;

@@ -18,6 +18,9 @@ class FrameMemory {
   /// Takes a field off the disparities of all stored observations (correct_disparity).
   void correct_disparities(const Rig& rig, const DisparityField& field, double min_sigmas);
 
+  /// Sets the standard deviations of all stored disparities to those of `noise`.
+  void weigh_disparities(const Rig& rig, const DisparityNoise& noise);
+
   /// Solves again for the poses of the stored frames that are not keyframes, in the map as it is now. A frame
   /// keeps its pose relative to its keyframe if fewer than min_inliers of its landmarks, or fewer than half
   /// of those that are still in the map, agree. Deterministic at any number of threads.

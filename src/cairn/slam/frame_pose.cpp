@@ -54,6 +54,7 @@ bool solve_pose(const PosedFrame& view, std::span<const Correspondence> found, i
   }
   tracked.matches = static_cast<int>(found.size());
   tracked.inliers = inliers;
+  tracked.is_determined = is_determined(pose.covariance, median_depth(view.observed));
   return true;
 }
 

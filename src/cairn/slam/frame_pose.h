@@ -15,6 +15,7 @@ struct FramePose {
   std::vector<LandmarkId> landmarks;  ///< one per feature; not valid if it shows none
   int matches = 0;                    ///< features matched with points
   int inliers = 0;                    ///< matches that agree with the pose
+  bool is_determined = false;         ///< by them (cairn::is_determined), where solve_pose solved for it
 };
 
 /// Solves for the pose of `view` from the correspondences `found`, starting from the pose that it has, which

@@ -40,8 +40,8 @@ std::uint64_t seed_of(const SlamOptions& options, const ObservedFrame& reference
   return options.seed * 0x9e3779b97f4a7c15ULL ^ pair;
 }
 
-/// Returns whether the inliers determine the motion; they do not if all are on a line or far away. `depth` is
-/// a typical depth of theirs, metres.
+}  // namespace
+
 bool is_determined(const Matrix6d& covariance, double depth) {
   constexpr double kMaxRotationStd = 0.02;  // radians
   constexpr double kMaxShareOfDepth = 0.01;
@@ -52,8 +52,6 @@ bool is_determined(const Matrix6d& covariance, double depth) {
   const bool translation = variances.tail<3>().maxCoeff() < max_translation_std * max_translation_std;
   return rotation && translation && variances.minCoeff() > 0;
 }
-
-}  // namespace
 
 std::vector<Eigen::Vector3d> points_of(const Map& map, KeyframeId id) {
   const Keyframe& keyframe = map[id];
@@ -86,6 +84,8 @@ Motion estimate_motion(const Rig& rig, const ReferencePoints& reference, const O
   const bool enough =
       motion.inliers >= options.min_inliers && motion.inliers >= options.min_inlier_share * motion.matches;
   motion.found = refined.found() && enough && is_determined(refined.covariance, median_depth(current));
+  constexpr int kFewestOfGuess = 8;
+  motion.is_guess = !motion.found && refined.found() && motion.inliers >= kFewestOfGuess;
   motion.current_from_reference = refined.camera_from_world;
   if (motion.found) motion.information = refined.covariance.inverse();
   motion.norm = motion_norm(motion.current_from_reference);

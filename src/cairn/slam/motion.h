@@ -13,7 +13,8 @@ namespace cairn {
 
 /// Holds the motion between two frames as estimated from their features.
 struct Motion {
-  bool found = false;  ///< false: too few matches or inliers, or a pose that they do not determine
+  bool found = false;     ///< false: too few matches or inliers, or a pose that they do not determine
+  bool is_guess = false;  ///< not found, but so many agree that the motion is worth a search around it
   Rigid3 current_from_reference;
   Matrix6d information = Matrix6d::Zero();  ///< of the left perturbation (rotation, translation)
   int matches = 0;
@@ -36,6 +37,11 @@ struct ReferencePoints {
 /// P3P in RANSAC and refines on all inliers. Deterministic, given the seed and the two frames.
 [[nodiscard]] Motion estimate_motion(const Rig& rig, const ReferencePoints& reference,
                                      const ObservedFrame& current, const SlamOptions& options);
+
+/// Tells whether a pose with this covariance is determined: to 0.02 rad, and to 5 cm or a hundredth of
+/// `depth`, a typical depth of what determines it, metres. It is not if all inliers are on a line or far
+/// away.
+[[nodiscard]] bool is_determined(const Matrix6d& covariance, double depth);
 
 /// Says what became of a frame.
 enum class TrackingStatus {

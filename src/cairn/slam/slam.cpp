@@ -10,6 +10,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/stopwatch.h"
 #include "cairn/observe/observe_frames.h"
+#include "cairn/slam/depth_noise_estimator.h"
 #include "cairn/slam/final_poses.h"
 #include "cairn/slam/mapper.h"
 #include "cairn/slam/mapping.h"
@@ -56,8 +57,12 @@ class SlamPipeline {
         min_disparity_sigmas_(stereo.min_disparity_sigmas),
         calibrator_(indexed_.map().rig(), stereo, executor) {}
 
+  /// Weighs depths by a noise that is estimated, unless the options state it.
+  void estimate_depth_noise() { depth_noise_.emplace(indexed_.map(), options_.observer.depth_noise); }
+
   void process(ObservedFrame&& frame) {
     calibrator_.correct(frame);
+    if (depth_noise_) depth_noise_->weigh(frame);
     TrackingResult track = track_frame(std::move(frame));
     if (tracker_.lost()) {
       begin_component(track);
@@ -66,6 +71,7 @@ class SlamPipeline {
       close_loops(keyframe);
       refer_to(keyframe, track);
       if (calibrator_.is_due(indexed_.map())) calibrate();
+      if (depth_noise_ && depth_noise_->is_due(indexed_.map())) weigh_depths();
       mapper_.start_adjustment(keyframe);
     }
     result_.frames.push_back(track);
@@ -74,7 +80,9 @@ class SlamPipeline {
   void finish() {
     (void)mapper_.apply_adjustment();
     calibrate();
+    if (depth_noise_) weigh_depths();
     result_.disparity_calibration = calibrator_.result();
+    if (depth_noise_) result_.depth_noise = depth_noise_->result();
     mapper_.finish();
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
     (void)cull_landmarks(indexed_.edit());
@@ -127,6 +135,13 @@ class SlamPipeline {
     }
   }
 
+  void weigh_depths() {
+    const auto noise = depth_noise_->update(indexed_.edit());
+    if (!noise) return;
+    memory_.weigh_disparities(indexed_.map().rig(), *noise);
+    tracker_.weigh_disparities(*noise);
+  }
+
   /// Makes the keyframe, made of the last frame, the reference of tracking.
   void refer_to(KeyframeId keyframe, TrackingResult& track) {
     tracker_.refer_to(keyframe);
@@ -143,6 +158,7 @@ class SlamPipeline {
   LoopCloser closer_;
   double min_disparity_sigmas_;
   DisparityCalibrator calibrator_;
+  std::optional<DepthNoiseEstimator> depth_noise_;  // of an RGB-D camera
   FrameMemory memory_;
 };
 
@@ -250,6 +266,7 @@ SlamResult run_slam(const Sequence& recorded, const SlamOptions& given, const Ex
   const StereoNoise stereo = calibration_of_disparities(sequence, options, start.has_value());
   result.map = start ? std::move(*start) : Map(map_header(sequence, options));
   SlamPipeline pipeline(options, stereo, executor, result);
+  if (!is_stereo(sequence)) pipeline.estimate_depth_noise();
   FrameStream stream{"tracking"};
   stream.process = [&](std::size_t, LoadedFrame&& loaded) {
     result.times.decode.push_back(loaded.decode_seconds);

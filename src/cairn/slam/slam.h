@@ -10,6 +10,7 @@
 #include "cairn/map/map.h"
 #include "cairn/map/pose_graph.h"
 #include "cairn/observe/row_errors.h"
+#include "cairn/optimize/disparity_noise_estimate.h"
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/slam/disparity_calibrator.h"
@@ -34,6 +35,8 @@ struct SlamResult {
   RowErrors row_errors;       ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair
+  /// Of an RGB-D camera: how sure its disparities are, and from how many of them; 0 if it was stated.
+  std::optional<DisparityNoiseEstimate> depth_noise;
   std::size_t start_keyframes = 0;  ///< keyframes of the map that the run started with; 0 without one
   bool stopped = false;             ///< whether the user stopped the run before the last frame
 

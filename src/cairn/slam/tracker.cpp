@@ -48,16 +48,22 @@ std::vector<Correspondence> Tracker::find_shown_before(const PosedFrame& frame, 
   return found;
 }
 
+/// Solves for the pose near the one that `frame` has, by what the last frame shows. Half of what is found
+/// must agree: in windows of this size chance alone agrees with one in forty.
+std::optional<FramePose> Tracker::follow_from(const PosedFrame& frame, double radius_px) const {
+  const auto found = find_shown_before(frame, radius_px);
+  FramePose current;
+  const bool is_solved = static_cast<int>(found.size()) >= options_.min_matches &&
+                         solve_pose(frame, found, options_.min_inliers, current);
+  if (!is_solved || 2 * current.inliers < current.matches) return std::nullopt;
+  return current;
+}
+
 std::optional<FramePose> Tracker::follow_motion(const ObservedFrame& frame) const {
   const Rigid3 predicted = current_from_last_ * last_.world_from_camera.inverse();
-  const PosedFrame view{map_.rig(), frame, predicted};
   for (const double widening : {1.0, 3.0}) {
-    const auto found = find_shown_before(view, widening * options_.tracking.motion_radius_px);
-    FramePose current;
-    const bool enough = static_cast<int>(found.size()) >= options_.min_matches;
-    if (enough && solve_pose(view, found, options_.min_inliers, current) &&
-        2 * current.inliers >= current.matches)
-      return current;
+    auto current = follow_from({map_.rig(), frame, predicted}, widening * options_.tracking.motion_radius_px);
+    if (current) return current;
   }
   return std::nullopt;
 }
@@ -71,8 +77,13 @@ std::optional<FramePose> Tracker::match_last(const ObservedFrame& frame, Trackin
       tracking_status(motion, options_, steps_between(observed_.stamp_ns, frame.stamp_ns, options_));
   track.matches = motion.matches;
   track.inliers = motion.inliers;
-  if (track.status == TrackingStatus::lost || track.status == TrackingStatus::implausible)
-    return std::nullopt;
+  if (track.status == TrackingStatus::implausible) return std::nullopt;
+  if (!motion.found) {  // few descriptors are alike after a wide step: with a guess more are found
+    if (!motion.is_guess) return std::nullopt;
+    auto current = follow_from({map_.rig(), frame, motion.current_from_reference * last_from_world},
+                               options_.tracking.motion_radius_px);
+    return current && current->is_determined ? current : std::nullopt;
+  }
   FramePose current;
   current.world_from_camera = last_.world_from_camera * motion.current_from_reference.inverse();
   current.landmarks.resize(frame.observations.size());

@@ -41,6 +41,10 @@ class Tracker {
   void correct_disparities(const DisparityField& field, double min_sigmas) {
     cairn::correct_disparities(map_.rig(), field, min_sigmas, observed_);
   }
+  /// Sets the standard deviations of the last frame's disparities to those of `noise`.
+  void weigh_disparities(const DisparityNoise& noise) {
+    cairn::weigh_disparities(map_.rig(), noise, observed_);
+  }
   /// Returns the pose and landmarks of the last frame; meaningful unless lost().
   [[nodiscard]] const FramePose& last() const { return last_; }
   /// Returns the keyframe that the last frame's pose is relative to; meaningful unless lost().
@@ -53,6 +57,7 @@ class Tracker {
   void follow_map();
 
  private:
+  [[nodiscard]] std::optional<FramePose> follow_from(const PosedFrame& frame, double radius_px) const;
   [[nodiscard]] std::optional<FramePose> follow_motion(const ObservedFrame& frame) const;
   [[nodiscard]] std::optional<FramePose> match_last(const ObservedFrame& frame, TrackingResult& track) const;
   [[nodiscard]] std::optional<FramePose> follow(const ObservedFrame& frame, TrackingResult& track) const;

@@ -2,6 +2,7 @@
 #include "cairn/slam/window.h"
 
 #include <algorithm>
+#include <map>
 
 #include "cairn/slam/local_map.h"
 
@@ -57,6 +58,18 @@ void move_with_its_own(KeyframeId id, const Rigid3& world_from_camera, Map& map)
   }
 }
 
+/// Removes the observation of a landmark, or its disparity alone if the pixel agrees.
+void remove_outlier(const Window& window, const BundleObservation& outlier, Map& map) {
+  const LandmarkId landmark = window.points[static_cast<std::size_t>(outlier.point)];
+  const KeyframeId keyframe = window.cameras[static_cast<std::size_t>(outlier.camera)];
+  const Eigen::Vector3d point = window.problem.camera_from_world[static_cast<std::size_t>(outlier.camera)] *
+                                window.problem.points_in_world[static_cast<std::size_t>(outlier.point)];
+  if (agreement(window.problem.rig, point, outlier.seen) == Agreement::pixel)
+    map.remove_disparity(landmark, keyframe);
+  else
+    map.remove_observation(landmark, keyframe);
+}
+
 }  // namespace
 
 Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options) {
@@ -94,6 +107,14 @@ Window whole_component(const Map& map, std::int32_t component) {
   return builder.build();
 }
 
+std::int32_t largest_component(const Map& map) {
+  std::map<std::int32_t, int> counts;
+  for (const KeyframeId id : map.keyframe_ids()) ++counts[map[id].component];
+  const auto most = std::max_element(counts.begin(), counts.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? 0 : most->first;
+}
+
 void apply_adjustment(const Window& window, const BundleReport& report, Map& map) {
   for (std::size_t c = 0; c < window.cameras.size(); ++c) {
     if (window.problem.camera_fixed[c] == 0)
@@ -103,9 +124,7 @@ void apply_adjustment(const Window& window, const BundleReport& report, Map& map
     if (!map[window.points[p]].erased()) map.move(window.points[p], window.problem.points_in_world[p]);
   for (std::size_t i = 0; i < report.inlier.size(); ++i) {
     if (report.inlier[i] != 0) continue;
-    const BundleObservation& seen = window.problem.observations[i];
-    map.remove_observation(window.points[static_cast<std::size_t>(seen.point)],
-                           window.cameras[static_cast<std::size_t>(seen.camera)]);
+    remove_outlier(window, window.problem.observations[i], map);
   }
 }
 

@@ -21,12 +21,15 @@ struct Window {
 /// landmarks are held fixed; without any, the oldest keyframe is.
 [[nodiscard]] Window window_around(const Map& map, KeyframeId keyframe, const MappingOptions& options);
 
+/// Returns the component with the most keyframes, the first of several; 0 in an empty map.
+[[nodiscard]] std::int32_t largest_component(const Map& map);
+
 /// Builds the adjustment of all keyframes of a component, the first one held fixed, and of all their
 /// landmarks that are seen at least twice.
 [[nodiscard]] Window whole_component(const Map& map, std::int32_t component);
 
 /// Moves keyframes and landmarks to their adjusted poses and points, and removes the observations that do not
-/// agree with them.
+/// agree with them; of those that agree in their pixel (Agreement) only the disparity.
 void apply_adjustment(const Window& window, const BundleReport& report, Map& map);
 
 }  // namespace cairn

@@ -131,5 +131,26 @@ TEST(TakeOver, an_adjusted_window_is_nearer_to_the_truth) {
     EXPECT_LT(motion_norm(map[KeyframeId{k}].world_from_camera.inverse() * testkit::aside(0.5 * k)), 1e-3);
 }
 
+TEST(TakeOver, a_wrong_disparity_is_taken_away_and_its_pixel_stays) {
+  testkit::MapMaker maker = along_a_wall();
+  Window window = window_around(maker.map, {7}, small_window());
+  BundleReport report;
+  report.inlier.assign(window.problem.observations.size(), 1);
+  BundleObservation& wrong = window.problem.observations[0];
+  wrong.seen.d += 20;
+  report.inlier[0] = 0;
+  const LandmarkId landmark = window.points[static_cast<std::size_t>(wrong.point)];
+  const KeyframeId keyframe = window.cameras[static_cast<std::size_t>(wrong.camera)];
+  const std::size_t observations = maker.map[landmark].observations.size();
+  ASSERT_GT(observations, 1U);
+  apply_adjustment(window, report, maker.map);
+  ASSERT_EQ(maker.map[landmark].observations.size(), observations);
+  for (const ObservationRef& seen : maker.map[landmark].observations)
+    EXPECT_EQ(maker.map[seen.keyframe]
+                  .observed.observations[static_cast<std::size_t>(seen.feature)]
+                  .has_disparity(),
+              seen.keyframe != keyframe);
+}
+
 }  // namespace
 }  // namespace cairn

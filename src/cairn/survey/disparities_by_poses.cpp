@@ -110,4 +110,35 @@ DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPos
   return result;
 }
 
+namespace {
+
+/// Adjusts a problem and leaves out the disparities of observations that do not fit.
+void adjust_without_outliers(BundleProblem& problem, const Executor& executor) {
+  const BundleReport report = adjust_bundle(problem, {}, executor);
+  for (std::size_t i = 0; i < report.inlier.size(); ++i)
+    if (report.inlier[i] == 0) problem.observations[i].seen = without_disparity(problem.observations[i].seen);
+}
+
+}  // namespace
+
+std::optional<DisparityNoiseEstimate> depth_noise_by_poses(const Sequence& sequence, const GivenPoses& poses,
+                                                           const SurveyOptions& options,
+                                                           const Executor& executor) {
+  const bool is_wanted = !is_stereo(sequence) && options.observer.depth_noise.is_estimated();
+  if (!is_wanted || frames_with_pose(poses).empty()) return std::nullopt;
+  BundleProblem problem = problem_of_stretches(sequence, poses, options, executor);
+  std::optional<DisparityNoiseEstimate> result;
+  constexpr int kRounds = 3;  // the first with the cautious weights of the observer
+  for (int round = 0; round < kRounds && !problem.observations.empty(); ++round) {
+    adjust_without_outliers(problem, executor);
+    const auto found = estimate_disparity_noise(problem);
+    if (!found) break;
+    result = found;
+    for (BundleObservation& observation : problem.observations)
+      if (observation.seen.has_disparity())
+        observation.seen.sigma_d_px = found->noise.at(problem.rig, observation.seen.d);
+  }
+  return result;
+}
+
 }  // namespace cairn

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "cairn/core/executor.h"
 #include "cairn/observe/frame_observer.h"
 #include "cairn/optimize/disparity_calibration.h"
+#include "cairn/optimize/disparity_noise_estimate.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/survey/options.h"
 
@@ -17,5 +20,13 @@ namespace cairn {
 /// nothing; whether it is to be applied is said in the result. Deterministic at any number of threads.
 [[nodiscard]] DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPoses& poses,
                                                       const SurveyOptions& options, const Executor& executor);
+
+/// Estimates the noise of an RGB-D sequence's depth (estimate_disparity_noise) from the same stretches, with
+/// the given poses held. Returns nullopt if the options state it, for a stereo sequence, and if the stretches
+/// do not show it. Deterministic at any number of threads.
+[[nodiscard]] std::optional<DisparityNoiseEstimate> depth_noise_by_poses(const Sequence& sequence,
+                                                                         const GivenPoses& poses,
+                                                                         const SurveyOptions& options,
+                                                                         const Executor& executor);
 
 }  // namespace cairn

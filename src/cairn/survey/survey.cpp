@@ -39,6 +39,8 @@ MapHeader header_of(const SurveyInput& input, const Calibration& calibration, co
   MapHeader header;
   header.rig = rig_of(calibration, options.observer.depth_noise);
   header.right_correction = calibration.right_correction;
+  if (calibration.depth && !options.observer.depth_noise.is_estimated())
+    header.depth_noise = options.observer.depth_noise.at_start();
   header.width = calibration.camera.width;
   header.height = calibration.camera.height;
   header.descriptor = kind_of(options.observer.features);
@@ -108,7 +110,13 @@ class SurveyPipeline {
       correction.disparity += found.field;
       sequence_.calibration.right_correction = correction;
     }
+    estimate_depth_noise();
     observer_.emplace(sequence_, options_.observer);
+  }
+
+  void estimate_depth_noise() {
+    result_.depth_noise = depth_noise_by_poses(sequence_, input_.poses, options_, executor_);
+    if (result_.depth_noise) options_.observer.depth_noise.state(result_.depth_noise->noise);
   }
 
   void check_given_poses() {
@@ -226,7 +234,7 @@ class SurveyPipeline {
   static constexpr double kCheckpointSeconds = 2;  // what a crash costs, beside finding features again
 
   const SurveyInput& input_;
-  const SurveyOptions& options_;
+  SurveyOptions options_;  // with the noise of depth, once it is estimated
   const std::filesystem::path& folder_;
   const Executor& executor_;
   Progress& progress_;

@@ -10,6 +10,7 @@
 #include "cairn/core/progress.h"
 #include "cairn/observe/row_errors.h"
 #include "cairn/optimize/disparity_calibration.h"
+#include "cairn/optimize/disparity_noise_estimate.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/survey/cleaning.h"
@@ -71,8 +72,10 @@ struct SurveyResult {
   RowErrors row_errors;       ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair, by the given poses
-  PoseCheck pose_check;                        ///< given poses against the images
-  bool stopped = false;                        ///< whether the user stopped the run; the work so far is kept
+  /// Of an RGB-D sequence, by the given poses; nullopt if it was stated or is not known.
+  std::optional<DisparityNoiseEstimate> depth_noise;
+  PoseCheck pose_check;  ///< given poses against the images
+  bool stopped = false;  ///< whether the user stopped the run; the work so far is kept
 };
 
 /// Describes what is mapped.
