@@ -36,6 +36,21 @@ class Redkitchen(program.Quality):
         self.assert_same_files("run1", "run2", but=("run.json",))
 
 
+class FewFrames(program.Quality):
+    """One or two frames a second, where each shows much that the one before did not."""
+
+    def test_redkitchen(self):
+        sequence = program.recordings() / "rgbd/redkitchen"
+        for step in (10, 20, 40):
+            run = self.figures("slam", sequence, "--frames", f"::{step}", "-o", f"run{step}", "--no-cloud", "--no-octree")
+            self.assertGreaterEqual(run["frames"]["tracked"], 0.95 * 600 / step, step)
+            self.assertLessEqual(run["ate_rmse_m"], 0.05, step)
+
+    def test_five_views_of_a_room(self):
+        run = self.figures("slam", program.recordings() / "rgbd/five_views", "-o", "run", "--no-cloud", "--no-octree")
+        self.assertEqual(run["frames"]["tracked"], 5)
+
+
 class Kitti(program.Quality):
     def test_follows_a_drive_the_same_at_any_number_of_threads(self):
         sequence = program.recordings() / "stereo/kitti_0039"

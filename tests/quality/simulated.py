@@ -41,6 +41,23 @@ class Room(program.Quality):
         self.assertEqual((info["keyframes"], info["landmarks"]), (run["keyframes"], run["landmarks"]))
 
 
+class DepthNoise(program.Quality):
+    """A small room whose depth is noisier or better than a Kinect's, at half the resolution."""
+
+    def test_is_estimated_as_well_as_if_it_were_known(self):
+        for factor in (0.5, 2, 10):
+            with self.subTest(factor=factor):
+                self.cairn("simulate", "room", "-o", "room", "--frames-count", "60", "--scale", "0.5", "--depth-noise", factor, "--quiet")
+                run = self.figures("slam", "room", "-o", "run", "--no-cloud", "--no-octree")
+                known = self.figures("slam", "room", "-o", "known", "--no-cloud", "--no-octree", "--set", f"depth.sigma_disparity_px={0.03 * factor}",
+                                     "--set", f"depth.sigma_m={0.0015 * factor}")
+                self.assertEqual(run["frames"]["tracked"], 60)
+                self.assertLessEqual(run["ate_rmse_m"], 1.5 * known["ate_rmse_m"])
+                # Nguyen, Izadi, Lovell 2012 at 3 m
+                self.assertAlmostEqual(run["depth_noise"]["sigma_at_3_m"], factor * 0.0140, delta=0.3 * factor * 0.0140)
+                shutil.rmtree(self.folder / "room")
+
+
 class Loops(program.Quality):
     def test_closes_the_loops_of_a_long_walk(self):
         self.cairn("simulate", "room", "-o", "room", "--frames-count", "1000", "--loops", "2", "--quiet")

@@ -155,6 +155,36 @@ TEST_F(TrackerTest, passes_over_landmarks_that_were_erased_meanwhile) {
     }
 }
 
+/// Returns points of which only `unique` have a look of their own; the others look like some dozens of
+/// others.
+testkit::PointWorld mostly_alike(std::size_t unique) {
+  testkit::PointWorld world = testkit::points_ahead(600, 12);
+  for (std::size_t i = unique; i < world.points.size(); ++i) world.points[i].look = unique + i % 20;
+  return world;
+}
+
+TEST(Tracker, a_guess_by_few_descriptors_is_searched_around) {
+  testkit::MapMaker maker(mostly_alike(18));
+  const SlamOptions options;
+  const Executor executor;
+  Tracker tracker(options, executor, maker.indexed);
+  const KeyframeId first = maker.add({});
+  (void)tracker.track(ObservedFrame(maker.map[first].observed));
+  tracker.refer_to(first);
+  const Rigid3 truth{rotation_exp({0, 0.25, 0}), {0.1, 0, 0}};  // 130 pixels at once
+  ObservedFrame frame = maker.world.see(truth, 1).observed;
+  const Motion motion = estimate_motion(
+      maker.map.rig(), {maker.map[first].observed, points_of(maker.map, first)}, frame, options);
+  ASSERT_FALSE(motion.found);
+  ASSERT_TRUE(motion.is_guess);
+  const TrackingResult seen = tracker.track(std::move(frame));
+  ASSERT_TRUE(seen.tracked());
+  EXPECT_GT(seen.inliers, 100);
+  EXPECT_LT(motion_norm((maker.map.world_from_camera(*seen.reference) * seen.reference_from_frame).inverse() *
+                        truth),
+            3e-3);
+}
+
 TEST(Tracker, without_a_map_nothing_is_tracked) {
   const SlamOptions options;
   const Executor executor;
