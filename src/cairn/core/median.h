@@ -15,4 +15,7 @@ inline double median(std::vector<double> values) {
   return *middle;
 }
 
+/// The standard deviation of normal errors over the median of their absolute values (Hampel 1974).
+inline constexpr double kSigmaPerMedian = 1.4826;
+
 }  // namespace cairn

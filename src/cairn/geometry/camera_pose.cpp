@@ -35,8 +35,10 @@ class PoseSolver {
     select_first();
     for (int round = 0; round < options_.rounds; ++round) {
       result_.status = used_.size() < kFewest ? PoseStatus::too_few_points : minimise();
-      if (result_.status != PoseStatus::ok && result_.status != PoseStatus::not_converged)
+      if (result_.status != PoseStatus::ok && result_.status != PoseStatus::not_converged) {
+        if (round == 0) forget_inliers();  // they are those of the start
         return std::move(result_);
+      }
       const std::vector<std::int32_t> left_out = result_.wrong_disparities;
       find_inliers();
       if (options_.selection == PoseSelection::all) break;
@@ -100,10 +102,14 @@ class PoseSolver {
     return agreement_by(all, pixel, seen);
   }
 
-  void find_inliers() {
-    const std::vector<Observation> used = seen_;
+  void forget_inliers() {
     result_.inliers.clear();
     result_.wrong_disparities.clear();
+  }
+
+  void find_inliers() {
+    const std::vector<Observation> used = seen_;
+    forget_inliers();
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(given_.size()); ++i) {
       const Agreement agreement = judge(i);
       if (agreement != Agreement::none) result_.inliers.push_back(i);

@@ -80,7 +80,8 @@ struct PoseEstimate {
   /// Positions of the correspondences that agree with the pose in full or in their pixel (Agreement),
   /// increasing, after the last round that could be solved.
   std::vector<std::int32_t> inliers;
-  /// Positions of the inliers that agree in their pixel only, increasing: their disparities are left out.
+  /// Positions of the inliers that agree in their pixel only, increasing. Their disparities do not influence
+  /// the result, unless the selection is `all`.
   std::vector<std::int32_t> wrong_disparities;
   /// Covariance of the left perturbation (rotation, translation) for the given standard deviations. Accounts
   /// for the precision lost by the kernel and the limit (KernelMoments). Zero unless status is ok.

@@ -202,7 +202,7 @@ TEST(Whiten, the_derivative_is_that_of_the_error) {
   }
 }
 
-/// Stereo observations, of which the first `wrong` have disparities of another surface.
+/// Returns stereo observations, of which the first `wrong` have disparities of another surface.
 PoseScene with_wrong_disparities(int wrong) {
   PoseScene scene = make_pose_scene(7, {.count = 200, .noise = 0.3, .stereo = true});
   for (int i = 0; i < wrong; ++i) {

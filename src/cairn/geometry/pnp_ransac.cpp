@@ -52,7 +52,7 @@ struct PnpProblem {
   [[nodiscard]] double squared_error(const Model& pose, std::size_t i) const {
     const Eigen::Vector3d point = pose.rotation * points[i] + pose.translation;
     const double all = cairn::squared_error(rig, point, seen[i]);
-    if (!seen[i].has_disparity() || all < kInlierLimit2) return all;
+    if (!seen[i].has_disparity() || all <= kDisparityBound) return all;
     const double pixel = cairn::squared_error(rig, point, without_disparity(seen[i]));
     return std::min(all, pixel + kDisparityBound);
   }
@@ -64,8 +64,10 @@ struct PnpProblem {
     for (const std::int32_t index : inliers) {
       const auto i = static_cast<std::size_t>(index);
       inlier_points.push_back(points[i]);
-      const auto found = agreement(rig, pose.rotation * points[i] + pose.translation, seen[i]);
-      inlier_observations.push_back(found == Agreement::pixel ? without_disparity(seen[i]) : seen[i]);
+      const Eigen::Vector3d point = pose.rotation * points[i] + pose.translation;
+      const Observation pixel = without_disparity(seen[i]);
+      const double added = cairn::squared_error(rig, point, seen[i]) - cairn::squared_error(rig, point, pixel);
+      inlier_observations.push_back(added > kGrossLimit1 ? pixel : seen[i]);
     }
     const CameraFromWorld start({Eigen::Quaterniond(pose.rotation), pose.translation});
     constexpr int kIterations = 3;  // RANSAC asks again with the inliers of the result

@@ -135,5 +135,20 @@ TEST(PnpRansac, finds_the_pose_although_most_disparities_are_wrong) {
   EXPECT_GT(result.inliers.size(), 135U);  // of 160: 0.95 of pixels are within their limit
 }
 
+TEST(PnpRansac, an_observation_costs_more_the_more_its_disparity_is_wrong) {
+  const Scene scene = make_scene(1, 0, 3);
+  const Observation& exact = scene.seen[0];
+  double last = -1;
+  for (const double wrong_px : {0.0, 0.1, 0.14, 0.2, 0.24, 0.26, 1.0, 20.0}) {
+    std::vector<Observation> seen{exact, exact, exact};
+    for (Observation& one : seen) one.d += wrong_px;
+    const Eigen::Vector3d& point = scene.points[0];
+    const double cost =
+        judge_pose(kRig, std::vector{point, point, point}, seen, scene.camera_from_world).cost;
+    EXPECT_GE(cost, last - 1e-9) << wrong_px;
+    last = cost;
+  }
+}
+
 }  // namespace
 }  // namespace cairn

@@ -32,6 +32,8 @@ struct Rig {
 
   [[nodiscard]] double disparity(double depth) const { return fx * baseline / depth; }
   [[nodiscard]] double depth(double disparity_px) const { return fx * baseline / disparity_px; }
+  /// Computes by how much the disparity `d` changes with the depth, pixels per metre, without the sign.
+  [[nodiscard]] double disparity_per_metre(double d) const { return d * d / (fx * baseline); }
   /// Computes (u, v, d) of a point in front of the camera: u = fx x/z + cx, v = fy y/z + cy, d = fx b/z.
   [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_in_camera) const {
     const double inverse_depth = 1.0 / point_in_camera.z();

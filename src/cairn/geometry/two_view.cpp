@@ -126,8 +126,7 @@ MetricScale metric_scale(std::span<const TwoViewPoint> points, std::span<const d
   if (ratios.empty()) return scale;
   scale.metres_per_unit = median(ratios);
   for (double& ratio : ratios) ratio = std::abs(ratio - scale.metres_per_unit);
-  constexpr double kNormal = 1.4826;  // of a normal distribution, standard deviation over this median
-  scale.relative_mad = kNormal * median(ratios) / scale.metres_per_unit;
+  scale.relative_mad = kSigmaPerMedian * median(ratios) / scale.metres_per_unit;
   return scale;
 }
 

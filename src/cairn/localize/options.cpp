@@ -76,7 +76,7 @@ ObserverOptions observer_options_for(const MapInfo& map, int features, double co
   options.features.count = features;
   options.features.contrast = contrast;
   options.depth_noise.baseline = map.rig.baseline;
-  if (map.depth_noise) options.depth_noise.state(*map.depth_noise);
+  options.depth_noise.stated = map.depth_noise.value_or(kKinectNoise);
   return options;
 }
 

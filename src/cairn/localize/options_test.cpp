@@ -63,5 +63,14 @@ TEST(CameraForQueries, enlarges_at_most_twice) {
   EXPECT_EQ(camera_for_queries(map_of(500, 500), camera_of(160, 120, 125)).width, 320);
 }
 
+TEST(ObserverOptionsFor, takes_the_noise_that_the_map_states) {
+  MapInfo map;
+  map.depth_noise = DisparityNoise{0.3, 0.002};
+  EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_px, 0.3);
+  EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_m, 0.002);
+  map.depth_noise.reset();
+  EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_px, kKinectNoise.sigma_px);
+}
+
 }  // namespace
 }  // namespace cairn

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/pose_equations.h"
@@ -48,9 +49,13 @@ Vector6d unnoticed_error(const Rig& rig, const Correspondences& correspondences,
 
 }  // namespace
 
-Precision assess_precision(const Rig& rig, const Correspondences& correspondences, const PoseEstimate& pose) {
+Precision assess_precision(const Rig& rig, const Correspondences& given, const PoseEstimate& pose) {
   require(pose.found(), "the precision of a pose that was found");
-  require(correspondences.covariances.size() == correspondences.size(), "each point has a covariance");
+  require(given.covariances.size() == given.size(), "each point has a covariance");
+  std::vector<Observation> used(given.observations.begin(), given.observations.end());
+  for (const std::int32_t i : pose.wrong_disparities)
+    used[static_cast<std::size_t>(i)] = without_disparity(used[static_cast<std::size_t>(i)]);
+  const Correspondences correspondences{given.points_in_world, used, given.covariances};
   Precision precision;
   const double scale = std::max(1.0, pose.variance_factor);
   precision.covariance = scale * pose.covariance;

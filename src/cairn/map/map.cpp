@@ -88,18 +88,20 @@ void Map::remove_observation(LandmarkId id, KeyframeId from) {
 }
 
 void Map::remove_disparity(LandmarkId id, KeyframeId shown_by) {
-  Observation* wrong = nullptr;
-  bool has_other = false;
-  for (const ObservationRef& ref : landmark(id).observations) {
-    Observation& seen = keyframe(ref.keyframe).observed.observations[static_cast<std::size_t>(ref.feature)];
-    ref.keyframe == shown_by ? void(wrong = &seen) : void(has_other |= seen.has_disparity());
-  }
-  if (wrong == nullptr) return;
+  const Landmark& seen = landmark(id);
+  const auto place = find_observation(seen, shown_by);
+  if (place == seen.observations.end()) return;
+  const bool has_other =
+      std::any_of(seen.observations.begin(), seen.observations.end(), [&](const ObservationRef& other) {
+        const auto& observations = keyframe(other.keyframe).observed.observations;
+        return other.keyframe != shown_by &&
+               observations[static_cast<std::size_t>(other.feature)].has_disparity();
+      });
   if (!has_other) return remove_observation(id, shown_by);
   ObservedFrame& frame = keyframe(shown_by).observed;
-  const auto feature = static_cast<std::size_t>(wrong - frame.observations.data());
-  *wrong = without_disparity(*wrong);
-  frame.points_in_camera[feature] = point_in_camera(rig(), *wrong);
+  const auto feature = static_cast<std::size_t>(place->feature);
+  frame.observations[feature] = without_disparity(frame.observations[feature]);
+  frame.points_in_camera[feature] = point_in_camera(rig(), frame.observations[feature]);
 }
 
 void Map::merge(LandmarkId gone, LandmarkId kept) {

@@ -87,8 +87,8 @@ class Map {
   /// Removes the observation of a landmark in a keyframe, if there is one. A landmark without observations is
   /// erased.
   void remove_observation(LandmarkId landmark, KeyframeId keyframe);
-  /// Takes the disparity by which a keyframe shows a landmark for not measured. If the landmark then has no
-  /// other, removes the observation instead: a landmark's depth is to be known without motion, too.
+  /// Marks the disparity by which a keyframe shows a landmark as not measured. Removes the whole observation
+  /// if no other one of the landmark has a disparity, because its depth is to be known without motion, too.
   void remove_disparity(LandmarkId landmark, KeyframeId keyframe);
   /// Makes one landmark of two: erases `gone` and moves its observations to `kept`, except in keyframes that
   /// show both, in which they are removed. Throws PreconditionError if the two are the same.

@@ -181,7 +181,7 @@ TEST(Map, refuses_what_makes_no_sense) {
   EXPECT_THROW((void)map.add_keyframe(frame_with_features(1), {}, {3}, 0), PreconditionError);
 }
 
-/// Three keyframes of four features at a depth of 2 m, whose first ones show a landmark.
+/// Makes three keyframes of four features at a depth of 2 m; two of them show a landmark.
 Map map_with_depths() {
   Map map(Rig{500, 500, 320, 240, 0.1}, "ORB");
   for (std::int32_t k = 0; k < 3; ++k) {

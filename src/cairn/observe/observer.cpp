@@ -16,10 +16,15 @@ namespace {
 class DepthWindow {
  public:
   DepthWindow(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise)
-      : depth_(depth), rig_(rig) {
+      : depth_(depth), focal_baseline_(static_cast<float>(rig.fx * rig.baseline)) {
     u_ = static_cast<int>(std::lround(keypoint.u));
     v_ = static_cast<int>(std::lround(keypoint.v));
-    radius_ = static_cast<int>(std::lround(noise.jump_radius * static_cast<double>(keypoint.sigma_px)));
+    const int radius =
+        static_cast<int>(std::lround(noise.jump_radius * static_cast<double>(keypoint.sigma_px)));
+    left_ = std::max(0, u_ - radius);
+    right_ = std::min(depth.width() - 1, u_ + radius);
+    top_ = std::max(0, v_ - radius);
+    bottom_ = std::min(depth.height() - 1, v_ + radius);
   }
 
   /// Returns the depth in the middle, metres; 0 if there is none.
@@ -29,52 +34,49 @@ class DepthWindow {
 
   /// Returns the largest difference to the middle's disparity, pixels.
   [[nodiscard]] double largest_difference() const {
-    const double middle = rig_.disparity(depth());
-    double largest = 0;
-    for_each([&](int x, int y) {
-      if (const auto d = disparity(x, y)) largest = std::max(largest, std::abs(*d - middle));
-    });
-    return largest;
+    const float middle = focal_baseline_ / depth_(u_, v_);
+    float largest = 0;
+    for (int y = top_; y <= bottom_; ++y) {
+      const float* row = depth_.row(y);
+      for (int x = left_; x <= right_; ++x) {
+        const float d = row[x] > 0 ? focal_baseline_ / row[x] : middle;
+        largest = std::max(largest, std::abs(d - middle));
+      }
+    }
+    return static_cast<double>(largest);
   }
 
   /// Returns the standard deviation of a disparity, pixels, by the median second difference along the rows,
   /// which neither a slope nor one outline changes much; 0 if too few depths are known.
   [[nodiscard]] double scatter() const {
     std::vector<double> differences;
-    for_each([&](int x, int y) {
-      const auto before = disparity(x - 1, y), here = disparity(x, y), after = disparity(x + 1, y);
-      if (before && here && after) differences.push_back(std::abs(*before - 2 * *here + *after));
-    });
+    for (int y = top_; y <= bottom_; ++y) {
+      const float* row = depth_.row(y);
+      for (int x = left_ + 1; x < right_; ++x) {
+        if (!(row[x - 1] > 0 && row[x] > 0 && row[x + 1] > 0)) continue;
+        const float second = 1 / row[x - 1] - 2 / row[x] + 1 / row[x + 1];
+        differences.push_back(static_cast<double>(focal_baseline_ * std::abs(second)));
+      }
+    }
     constexpr std::size_t kFewest = 10;
-    constexpr double kPerMedian = 1.4826 / 2.449;  // of normal noise: 1 / 0.6745, over sqrt(1 + 4 + 1)
-    return differences.size() < kFewest ? 0 : kPerMedian * median(std::move(differences));
+    constexpr double kPerSecondDifference = 1 / 2.449;  // 1 / sqrt(1 + 4 + 1)
+    return differences.size() < kFewest
+               ? 0
+               : kPerSecondDifference * kSigmaPerMedian * median(std::move(differences));
   }
 
  private:
-  template <class Visit>
-  void for_each(const Visit& visit) const {
-    for (int y = std::max(0, v_ - radius_); y <= std::min(depth_.height() - 1, v_ + radius_); ++y)
-      for (int x = std::max(0, u_ - radius_); x <= std::min(depth_.width() - 1, u_ + radius_); ++x)
-        visit(x, y);
-  }
-  [[nodiscard]] std::optional<double> disparity(int x, int y) const {
-    if (!depth_.contains(x, y) || !(depth_(x, y) > 0)) return std::nullopt;
-    return rig_.disparity(static_cast<double>(depth_(x, y)));
-  }
-
   const DepthImage& depth_;
-  const Rig& rig_;
-  int u_, v_, radius_;
+  float focal_baseline_;
+  int u_, v_, left_, right_, top_, bottom_;
 };
 
-/// Tells whether the depth around a feature jumps. Its noise is at least a Kinect's; if it is not stated,
-/// that of the neighbourhood.
-bool jumps(const DepthWindow& window, const DepthNoise& noise) {
-  constexpr double kKinectSigmaPx = 0.09;
+/// Tells whether the depth around a feature jumps: by many standard deviations, which are the largest of a
+/// Kinect's, those that are stated, and those of the neighbourhood.
+bool jumps(const DepthWindow& window, const Rig& rig, const DepthNoise& noise) {
+  const double sigma = std::max(kKinectNoise.sigma_px, noise.stated.at(rig, rig.disparity(window.depth())));
   const double largest = window.largest_difference();
-  const double sigma = std::max(kKinectSigmaPx, noise.sigma_disparity_px);
-  if (largest <= noise.jump_sigmas * sigma) return false;
-  return !noise.is_estimated() || largest > noise.jump_sigmas * window.scatter();
+  return largest > noise.jump_sigmas * sigma && largest > noise.jump_sigmas * window.scatter();
 }
 
 /// Returns the depth at the nearest pixel, metres; 0 if unknown, out of range, or at a jump of the depth: a
@@ -83,7 +85,7 @@ bool jumps(const DepthWindow& window, const DepthNoise& noise) {
 double depth_at(const DepthImage& depth, const Keypoint& keypoint, const Rig& rig, const DepthNoise& noise) {
   const DepthWindow window(depth, keypoint, rig, noise);
   const double z = window.depth();
-  const bool is_usable = z >= noise.min_depth && z <= noise.max_depth && !jumps(window, noise);
+  const bool is_usable = z >= noise.min_depth && z <= noise.max_depth && !jumps(window, rig, noise);
   return is_usable ? z : 0;
 }
 
@@ -114,11 +116,6 @@ void add(const Rig& rig, const Observation& seen, const Keypoint& keypoint, Obse
 }
 
 }  // namespace
-
-DisparityNoise DepthNoise::at_start() const {
-  constexpr double kCautiousPx = 1;  // ten times a Kinect's
-  return {is_estimated() ? kCautiousPx : sigma_disparity_px, sigma_depth_m};
-}
 
 Rig rig_of(const Calibration& calibration, const DepthNoise& noise) {
   const Camera& camera = calibration.camera;

@@ -12,29 +12,20 @@
 
 namespace cairn {
 
-/// Describes the noise of depth images. A structured-light or stereo sensor measures disparity, so the
-/// standard deviation of a depth z is sigma_disparity_px * z^2 / (fx * baseline); another part does not
-/// depend on z (DisparityNoise).
+/// Describes the noise of depth images, as that of disparities fx baseline / z.
 struct DepthNoise {
   double baseline = 0.075;  ///< virtual baseline, metres; that of the Kinect
-  /// Standard deviation of a disparity, pixels; 0: estimated from the recording. 0.09 px is 2.3 mm at 1 m and
-  /// 21 mm at 3 m, twice what Khoshelham and Elberink 2012 measured for the Kinect, because features lie
-  /// where depth is worst.
-  double sigma_disparity_px = 0;
-  double sigma_depth_m = 0;  ///< part of the standard deviation of a depth that is the same at any, metres
+  DisparityNoise stated;    ///< its sigma_px is 0 if the noise is to be estimated from the recording
   double min_depth = 0.2;    ///< smallest depth, metres; nearer is noise
   /// Distance of a feature from a jump of the depth below which it has no depth, pixels at the finest scale.
   double jump_radius = 3.0;
   double jump_sigmas = 8.0;  ///< change of disparity that is a jump, standard deviations
   double max_depth = 8.0;    ///< largest depth, metres; farther is noise
 
-  [[nodiscard]] bool is_estimated() const { return sigma_disparity_px == 0; }
-  /// Returns the noise that is stated, or a cautious one for the time before it is estimated.
-  [[nodiscard]] DisparityNoise at_start() const;
-  /// States a noise.
-  void state(const DisparityNoise& noise) {
-    sigma_disparity_px = noise.sigma_px;
-    sigma_depth_m = noise.sigma_m;
+  [[nodiscard]] bool is_estimated() const { return stated.sigma_px == 0; }
+  /// Returns the noise that is stated, or a cautious one, ten times a Kinect's, until it is estimated.
+  [[nodiscard]] DisparityNoise at_start() const {
+    return is_estimated() ? DisparityNoise{10 * kKinectNoise.sigma_px, 0} : stated;
   }
 };
 

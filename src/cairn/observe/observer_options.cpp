@@ -13,15 +13,17 @@ void visit(DepthNoise& depth, ParameterVisitor& visitor) {
   visitor.parameter({"depth.sigma_disparity_px", from(0, "pixels"),
                      "Standard deviation of such a disparity, that of a depth z is sigma z^2 / (fx b); 0: "
                      "estimated from the recording."},
-                    depth.sigma_disparity_px);
+                    depth.stated.sigma_px);
   visitor.parameter({"depth.sigma_m", from(0, "metres"),
-                     "Standard deviation of a depth beside that of its disparity, if that is stated."},
-                    depth.sigma_depth_m);
+                     "Part of a depth's standard deviation that does not depend on z; only with "
+                     "depth.sigma_disparity_px above 0."},
+                    depth.stated.sigma_m);
   visitor.parameter({"depth.jump_radius_px", from_to(0, 100, "pixels"),
                      "A feature nearer than this to a jump of the depth has no depth; times its scale."},
                     depth.jump_radius);
   visitor.parameter({"depth.jump_sigmas", above(0, "standard deviations"),
-                     "Difference of disparities from which on depth jumps."},
+                     "Difference of disparities from which on depth jumps; of 0.09 px at least, or as "
+                     "much as depth scatters around the feature."},
                     depth.jump_sigmas);
   visitor.parameter({"depth.min", from(0, "metres"), "A smaller depth is no reading."}, depth.min_depth);
   visitor.parameter({"depth.max", above(0, "metres"), "A larger depth is no reading; above depth.min."},
@@ -65,6 +67,8 @@ void ObserverOptions::validate() const {
   check_ranges(*this);
   check_parameter(depth_noise.max_depth > depth_noise.min_depth, "depth.max", "metres above depth.min",
                   depth_noise.max_depth);
+  check_parameter(depth_noise.stated.sigma_m == 0 || !depth_noise.is_estimated(), "depth.sigma_m",
+                  "0 unless depth.sigma_disparity_px is above 0", depth_noise.stated.sigma_m);
   const std::string& choice = stereo_noise.self_calibration;
   if (choice != "auto" && choice != "report" && choice != "off")
     throw InputError(

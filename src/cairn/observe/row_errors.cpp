@@ -78,10 +78,9 @@ class RowMeasurer {
 };
 
 double robust_deviation(std::vector<double> errors) {
-  constexpr double kOfMedian = 1.4826;  // of a normal distribution
   if (errors.empty()) return 0;
   for (double& error : errors) error = std::abs(error);
-  return kOfMedian * median(std::move(errors));
+  return kSigmaPerMedian * median(std::move(errors));
 }
 
 std::vector<double> residuals(std::span<const RowReading> readings, const RowField& field) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "cairn/core/median.h"
+
 namespace cairn {
 namespace {
 
@@ -52,8 +54,7 @@ class ResidualCollector {
   }
   /// Returns whether the pixel fits.
   [[nodiscard]] bool fits(const BundleObservation& observation) const {
-    Observation pixel = observation.seen;
-    pixel.d = std::numeric_limits<double>::quiet_NaN();
+    const Observation pixel = without_disparity(observation.seen);
     return squared_error(problem_.rig, in_camera(observation), pixel) < squared_error_limit(pixel);
   }
   [[nodiscard]] Eigen::Matrix3d jacobian(const BundleObservation& seen) const {
@@ -87,7 +88,7 @@ class ResidualCollector {
     const double redundancy = 1 - (row * covariance).dot(row) / variance;
     if (!(redundancy > kLeastRedundancy)) return std::nullopt;
     const double error = problem_.rig.project(in_camera(observation)).z() - seen.d;
-    const double per_m = seen.d * seen.d / (problem_.rig.fx * problem_.rig.baseline);
+    const double per_m = problem_.rig.disparity_per_metre(seen.d);
     return Residual{error * error / redundancy, per_m * per_m};
   }
 
@@ -101,10 +102,7 @@ class ResidualCollector {
 double first_sigma(const std::vector<Residual>& residuals) {
   std::vector<double> squares;
   for (const Residual& residual : residuals) squares.push_back(residual.square);
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  constexpr double kNormal = 1.4826;  // standard deviation over median distance of normal errors
-  return std::max(kLeastSigmaPx, kNormal * std::sqrt(*middle));
+  return std::max(kLeastSigmaPx, kSigmaPerMedian * std::sqrt(median(std::move(squares))));
 }
 
 /// Returns one step of the iteration for both variances.
@@ -126,15 +124,16 @@ DisparityNoise fit(const std::vector<Residual>& residuals) {
   for (const Residual& residual : residuals) mean_by_depth += residual.by_depth;
   mean_by_depth /= static_cast<double>(residuals.size());
   Eigen::Array2d variances(0.5 * first * first, 0.5 * first * first / mean_by_depth);
+  const Eigen::Array2d kLeastVariances(kLeastSigmaPx * kLeastSigmaPx, kLeastSigmaM * kLeastSigmaM);
   constexpr int kMaxIterations = 100;
   constexpr double kConverged = 1e-3;  // relative
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Array2d next = improved(variances, residuals);
-    const double change = ((next - variances).abs() / (variances + 1e-12)).maxCoeff();
+    const Eigen::Array2d next = improved(variances, residuals).max(kLeastVariances);
+    const double change = ((next - variances).abs() / variances).maxCoeff();
     variances = next;
     if (change < kConverged) break;
   }
-  return {std::max(kLeastSigmaPx, std::sqrt(variances[0])), std::max(kLeastSigmaM, std::sqrt(variances[1]))};
+  return {std::sqrt(variances[0]), std::sqrt(variances[1])};
 }
 
 }  // namespace
@@ -143,6 +142,11 @@ std::optional<DisparityNoiseEstimate> estimate_disparity_noise(const BundleProbl
   const std::vector<Residual> residuals = ResidualCollector(problem).collect();
   if (residuals.size() < kFewest) return std::nullopt;
   return DisparityNoiseEstimate{fit(residuals), problem.rig, static_cast<std::int64_t>(residuals.size())};
+}
+
+void weigh_disparities(const DisparityNoise& noise, BundleProblem& problem) {
+  for (auto& [camera, point, seen] : problem.observations)
+    if (seen.has_disparity()) seen.sigma_d_px = noise.at(problem.rig, seen.d);
 }
 
 }  // namespace cairn

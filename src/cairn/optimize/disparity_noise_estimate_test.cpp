@@ -11,11 +11,6 @@
 namespace cairn {
 namespace {
 
-/// States the same standard deviation of all disparities.
-void state(double sigma_px, BundleProblem& problem) {
-  for (BundleObservation& observation : problem.observations) observation.seen.sigma_d_px = sigma_px;
-}
-
 /// Returns points between 1.5 and 8 m, seen with a noise of the disparities, of which a share is wrong.
 BundleProblem noisy_problem(const DisparityNoise& noise, double wrong_share = 0) {
   testkit::BundleSceneOptions options;
@@ -34,7 +29,7 @@ BundleProblem noisy_problem(const DisparityNoise& noise, double wrong_share = 0)
   return scene.problem;
 }
 
-/// Adjusts and leaves out what does not fit, as a map does.
+/// Adjusts and leaves out the disparities that do not fit, as a map does; no pixel is wrong.
 void adjust(BundleProblem& problem) {
   const BundleReport report = adjust_bundle(problem, {});
   for (std::size_t i = 0; i < report.inlier.size(); ++i)
@@ -43,14 +38,13 @@ void adjust(BundleProblem& problem) {
 
 /// Adjusts and estimates as often as a map is, beginning with a standard deviation of 1 px.
 std::optional<DisparityNoiseEstimate> estimate(BundleProblem problem) {
-  state(1, problem);
+  weigh_disparities({1, 0}, problem);
   std::optional<DisparityNoiseEstimate> found;
   for (int round = 0; round < 5; ++round) {
     adjust(problem);
     found = estimate_disparity_noise(problem);
     if (!found) return found;
-    for (BundleObservation& observation : problem.observations)
-      observation.seen.sigma_d_px = found->noise.at(problem.rig, observation.seen.d);
+    weigh_disparities(found->noise, problem);
   }
   return found;
 }

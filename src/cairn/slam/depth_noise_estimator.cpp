@@ -25,6 +25,11 @@ std::optional<DisparityNoise> DepthNoiseEstimator::update(Map& map) {
   return result_.noise;
 }
 
+DisparityNoise DepthNoiseEstimator::finish(Map& map) {
+  if (!update(map)) map.weigh_disparities(result_.noise);
+  return result_.noise;
+}
+
 void DepthNoiseEstimator::weigh(ObservedFrame& frame) const {
   if (is_estimated_) weigh_disparities(result_.rig, result_.noise, frame);
 }

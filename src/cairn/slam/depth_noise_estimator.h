@@ -15,8 +15,8 @@ namespace cairn {
 /// throws right matches away, one that is believed too little costs some precision.
 class DepthNoiseEstimator {
  public:
-  /// Begins with the noise that is stated, and then keeps it, else with that of a `map` that goes on, else
-  /// with a cautious one.
+  /// Begins with the noise that is stated, and then keeps it, else with that of a map that the run continues,
+  /// else with a cautious one.
   DepthNoiseEstimator(const Map& map, const DepthNoise& stated);
 
   /// Returns whether the map has so many keyframes that an estimate is due: 3, and each time half as many
@@ -25,6 +25,9 @@ class DepthNoiseEstimator {
   /// Estimates the noise from the whole map and weighs the map's disparities by it. Returns the noise, or
   /// nullopt if the map does not show it. No adjustment of the map may be running.
   std::optional<DisparityNoise> update(Map& map);
+  /// Makes the last estimate, and states in the map's header the noise that its disparities are weighed by.
+  /// Returns that noise. To be called after the last frame; no adjustment of the map may be running.
+  DisparityNoise finish(Map& map);
   /// Weighs the disparities of a frame by what is known so far.
   void weigh(ObservedFrame& frame) const;
 

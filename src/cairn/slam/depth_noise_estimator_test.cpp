@@ -58,12 +58,14 @@ TEST(DepthNoiseEstimator, weighs_later_frames_as_the_map) {
 TEST(DepthNoiseEstimator, keeps_what_is_stated) {
   testkit::MapMaker maker = drive();
   DepthNoise stated;
-  stated.sigma_disparity_px = 0.2;
+  stated.stated.sigma_px = 0.2;
   DepthNoiseEstimator estimator(maker.map, stated);
   EXPECT_FALSE(estimator.is_due(maker.map));
   EXPECT_FALSE(estimator.update(maker.map));
   EXPECT_EQ(estimator.result().noise.sigma_px, 0.2);
-  EXPECT_FALSE(maker.map.header().depth_noise);
+  EXPECT_EQ(estimator.finish(maker.map).sigma_px, 0.2);
+  ASSERT_TRUE(maker.map.header().depth_noise);
+  EXPECT_EQ(maker.map.header().depth_noise->sigma_px, 0.2);
 }
 
 TEST(DepthNoiseEstimator, begins_with_that_of_a_map_that_goes_on) {
@@ -79,6 +81,8 @@ TEST(DepthNoiseEstimator, an_empty_map_says_nothing) {
   DepthNoiseEstimator estimator(map, {});
   EXPECT_FALSE(estimator.is_due(map));
   EXPECT_FALSE(estimator.update(map));
+  EXPECT_EQ(estimator.finish(map).sigma_px, DepthNoise().at_start().sigma_px);
+  EXPECT_TRUE(map.header().depth_noise);
 }
 
 }  // namespace

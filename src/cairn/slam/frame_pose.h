@@ -15,7 +15,8 @@ struct FramePose {
   std::vector<LandmarkId> landmarks;  ///< one per feature; not valid if it shows none
   int matches = 0;                    ///< features matched with points
   int inliers = 0;                    ///< matches that agree with the pose
-  bool is_determined = false;         ///< by them (cairn::is_determined), where solve_pose solved for it
+  /// Whether the inliers determine the pose (cairn::is_determined); false unless solve_pose set it.
+  bool is_determined = false;
 };
 
 /// Solves for the pose of `view` from the correspondences `found`, starting from the pose that it has, which

@@ -80,9 +80,8 @@ class SlamPipeline {
   void finish() {
     (void)mapper_.apply_adjustment();
     calibrate();
-    if (depth_noise_) weigh_depths();
+    if (depth_noise_) finish_depths();
     result_.disparity_calibration = calibrator_.result();
-    if (depth_noise_) result_.depth_noise = depth_noise_->result();
     mapper_.finish();
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
     (void)cull_landmarks(indexed_.edit());
@@ -136,10 +135,17 @@ class SlamPipeline {
   }
 
   void weigh_depths() {
-    const auto noise = depth_noise_->update(indexed_.edit());
-    if (!noise) return;
-    memory_.weigh_disparities(indexed_.map().rig(), *noise);
-    tracker_.weigh_disparities(*noise);
+    const Stopwatch watch;
+    if (const auto noise = depth_noise_->update(indexed_.edit())) {
+      memory_.weigh_disparities(indexed_.map().rig(), *noise);
+      tracker_.weigh_disparities(*noise);
+    }
+    result_.times.global.push_back(watch.seconds());
+  }
+
+  void finish_depths() {
+    memory_.weigh_disparities(indexed_.map().rig(), depth_noise_->finish(indexed_.edit()));
+    result_.depth_noise = depth_noise_->result();
   }
 
   /// Makes the keyframe, made of the last frame, the reference of tracking.

@@ -35,7 +35,7 @@ struct SlamResult {
   RowErrors row_errors;       ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair
-  /// Of an RGB-D camera: how sure its disparities are, and from how many of them; 0 if it was stated.
+  /// Of an RGB-D camera: how sure its disparities are, and how many say so; 0 if it is stated or assumed.
   std::optional<DisparityNoiseEstimate> depth_noise;
   std::size_t start_keyframes = 0;  ///< keyframes of the map that the run started with; 0 without one
   bool stopped = false;             ///< whether the user stopped the run before the last frame

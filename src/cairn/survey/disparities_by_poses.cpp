@@ -112,11 +112,16 @@ DisparityCalibration calibrate_by_poses(const Sequence& sequence, const GivenPos
 
 namespace {
 
-/// Adjusts a problem and leaves out the disparities of observations that do not fit.
+/// Adjusts a problem and leaves out the observations that do not fit, or their disparities alone (Agreement).
 void adjust_without_outliers(BundleProblem& problem, const Executor& executor) {
-  const BundleReport report = adjust_bundle(problem, {}, executor);
-  for (std::size_t i = 0; i < report.inlier.size(); ++i)
-    if (report.inlier[i] == 0) problem.observations[i].seen = without_disparity(problem.observations[i].seen);
+  (void)adjust_bundle(problem, {}, executor);
+  std::erase_if(problem.observations, [&](BundleObservation& observation) {
+    const Eigen::Vector3d point = problem.camera_from_world[static_cast<std::size_t>(observation.camera)] *
+                                  problem.points_in_world[static_cast<std::size_t>(observation.point)];
+    const Agreement found = agreement(problem.rig, point, observation.seen);
+    if (found == Agreement::pixel) observation.seen = without_disparity(observation.seen);
+    return found == Agreement::none;
+  });
 }
 
 }  // namespace
@@ -134,9 +139,7 @@ std::optional<DisparityNoiseEstimate> depth_noise_by_poses(const Sequence& seque
     const auto found = estimate_disparity_noise(problem);
     if (!found) break;
     result = found;
-    for (BundleObservation& observation : problem.observations)
-      if (observation.seen.has_disparity())
-        observation.seen.sigma_d_px = found->noise.at(problem.rig, observation.seen.d);
+    weigh_disparities(found->noise, problem);
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cairn/simulate/write_kitti.h"
+#include "cairn/simulate/write_tum.h"
 #include "cairn/testing/survey/street_survey.h"
 
 namespace cairn {
@@ -70,6 +71,49 @@ TEST_F(CalibrateByPoses, does_nothing_without_poses) {
 
 TEST_F(CalibrateByPoses, gives_the_same_bits_at_any_number_of_threads) {
   EXPECT_EQ(calibrate(0.1, small_window(), 1).field, calibrate(0.1, small_window(), 3).field);
+}
+
+/// Simulates a small room whose depth has `factor` times a Kinect's noise.
+class DepthNoiseByPoses : public testing::Test {
+ protected:
+  [[nodiscard]] std::optional<DisparityNoiseEstimate> estimate(double factor, const SurveyOptions& options = {},
+                                                               int threads = 2) {
+    SimulateRoomOptions room;
+    room.frames_count = 24;
+    room.camera = resized(room.camera, 0.5);
+    room.depth_noise = factor;
+    const auto folder = scratch_.make_folder("room");
+    Progress silent;
+    const Executor executor(threads);
+    (void)write_tum(SimulatedRoom(room, executor), folder, executor, silent);
+    const Sequence sequence = open_sequence(folder);
+    return depth_noise_by_poses(sequence, read_given_poses(sequence), options, executor);
+  }
+
+  const testkit::TemporaryFolder scratch_;
+};
+
+TEST_F(DepthNoiseByPoses, finds_how_noisy_depth_is) {
+  const auto found = estimate(5);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->disparities, 1000);
+  for (const double depth : {2.0, 3.0})
+    EXPECT_NEAR(found->noise.of_depth(found->rig, depth), 5 * kinect_depth_deviation(depth),
+                0.3 * 5 * kinect_depth_deviation(depth))
+        << depth;
+}
+
+TEST_F(DepthNoiseByPoses, is_the_same_at_any_number_of_threads) {
+  const auto one = estimate(2, {}, 1), three = estimate(2, {}, 3);
+  ASSERT_TRUE(one && three);
+  EXPECT_EQ(one->noise.sigma_px, three->noise.sigma_px);
+  EXPECT_EQ(one->noise.sigma_m, three->noise.sigma_m);
+}
+
+TEST_F(DepthNoiseByPoses, leaves_a_stated_noise_alone) {
+  SurveyOptions options;
+  options.observer.depth_noise.stated.sigma_px = 0.1;
+  EXPECT_FALSE(estimate(1, options));
 }
 
 }  // namespace

@@ -39,8 +39,7 @@ MapHeader header_of(const SurveyInput& input, const Calibration& calibration, co
   MapHeader header;
   header.rig = rig_of(calibration, options.observer.depth_noise);
   header.right_correction = calibration.right_correction;
-  if (calibration.depth && !options.observer.depth_noise.is_estimated())
-    header.depth_noise = options.observer.depth_noise.at_start();
+  if (calibration.depth) header.depth_noise = options.observer.depth_noise.stated;
   header.width = calibration.camera.width;
   header.height = calibration.camera.height;
   header.descriptor = kind_of(options.observer.features);
@@ -114,9 +113,14 @@ class SurveyPipeline {
     observer_.emplace(sequence_, options_.observer);
   }
 
+  /// Estimates the noise of depth, unless the poses contradict the images: then it would be theirs.
   void estimate_depth_noise() {
-    result_.depth_noise = depth_noise_by_poses(sequence_, input_.poses, options_, executor_);
-    if (result_.depth_noise) options_.observer.depth_noise.state(result_.depth_noise->noise);
+    if (!sequence_.calibration.depth) return;
+    DepthNoise& noise = options_.observer.depth_noise;
+    if (result_.pose_check.verdict != PoseVerdict::contradiction)
+      result_.depth_noise = depth_noise_by_poses(sequence_, input_.poses, options_, executor_);
+    if (!result_.depth_noise) result_.depth_noise = {noise.at_start(), rig_, 0};
+    noise.stated = result_.depth_noise->noise;
   }
 
   void check_given_poses() {

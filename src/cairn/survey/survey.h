@@ -72,7 +72,8 @@ struct SurveyResult {
   RowErrors row_errors;       ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair, by the given poses
-  /// Of an RGB-D sequence, by the given poses; nullopt if it was stated or is not known.
+  /// Of an RGB-D sequence, by the given poses: how sure its disparities are, and how many say so; 0 if it is
+  /// stated or assumed.
   std::optional<DisparityNoiseEstimate> depth_noise;
   PoseCheck pose_check;  ///< given poses against the images
   bool stopped = false;  ///< whether the user stopped the run; the work so far is kept

@@ -51,7 +51,7 @@ Observation observe(Random& random, const Eigen::Vector3d& exact, const PixelNoi
 }
 
 void forget_disparity(Observation& seen) {
-  seen.d = std::numeric_limits<double>::quiet_NaN();
+  seen = without_disparity(seen);
 }
 
 void mislead(Random& random, double aside_px, Observation& seen) {
