@@ -7,9 +7,6 @@
 namespace cairn {
 namespace {
 
-/// Says how many times too small the formal standard deviations of a field are: fields of both halves of six
-/// recordings differed by 2 to 11 of them.
-constexpr double kSigmaInflation = 10;
 /// Standard deviation of each term before anything is seen, pixels: with 700 px of focal length that of a
 /// camera turned by a twelfth of a degree.
 constexpr double kPriorPx = 1;
@@ -50,7 +47,8 @@ BundleOptions until_converged() {
 }
 
 FieldReport adjust_with_field(BundleProblem& problem, DisparityField field, const Executor& executor) {
-  return adjust_bundle_with_field(problem, field, until_converged(), {kPriorPx / kSigmaInflation}, executor);
+  return adjust_bundle_with_field(problem, field, until_converged(), {kPriorPx / kFieldSigmaInflation},
+                                  executor);
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ FieldReport estimate_field(BundleProblem& problem, const DisparityField& from, c
   FieldReport report = adjust_with_field(problem, from, executor);
   ++calibration.estimates;
   calibration.field = report.field;
-  calibration.sigma = kSigmaInflation * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  calibration.sigma = kFieldSigmaInflation * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   calibration.rms_px = rms_of(report.field, problem);
   calibration.disparities = static_cast<std::int64_t>(report.disparities);
   return report;

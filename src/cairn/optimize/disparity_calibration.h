@@ -9,6 +9,10 @@
 
 namespace cairn {
 
+/// Says how many times too small the formal standard deviations of a field are: fields of both halves of six
+/// recordings differed by 2 to 11 of them.
+constexpr double kFieldSigmaInflation = 10;
+
 /// Holds what a bundle says of the field of a stereo pair's disparities, and what was done about it.
 struct DisparityCalibration {
   DisparityField field = DisparityField::Zero();  ///< pixels
