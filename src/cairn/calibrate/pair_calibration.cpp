@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cairn/map/map.h"
+#include "cairn/slam/window.h"
 
 namespace cairn {
 namespace {
@@ -49,6 +50,15 @@ double scale_by_disparity(const Map& map) {
     }
   }
   return second > 0 ? first / second : 0;
+}
+
+double field_sigma_px(const SlamResult& slam, const Executor& executor) {
+  constexpr double kMatchingBias = 0.02;
+  const DisparityCalibration& found = slam.disparity_calibration;
+  if (!found.is_determined()) return 0;
+  const BundleProblem problem = whole_component(slam.map, slam.main_component()).problem;
+  return std::max(
+      {found.sigma[0] / kFieldSigmaInflation, halves_difference_px(problem, executor) / 2, kMatchingBias});
 }
 
 Quantity kind_of_terms(bool is_determined, bool is_applied, const std::string& why) {
@@ -97,13 +107,14 @@ SettledRun run_until_settled(const Sequence& recorded, const SlamOptions& option
     if (!goes_on || run.slam.stopped) break;
   }
   drop_empty_correction(recorded, run);
+  run.field_sigma_px = field_sigma_px(run.slam, executor);
   return run;
 }
 
 Trajectory motions_for_scale(const SettledRun& run, const Executor& executor, Progress& progress) {
   constexpr double kFewSigmas = 3;
   const DisparityCalibration& found = run.slam.disparity_calibration;
-  const bool is_noise = found.rms_px < kFewSigmas * found.sigma[0] / kFieldSigmaInflation;
+  const bool is_noise = found.rms_px < kFewSigmas * run.field_sigma_px;
   if (!is_stereo(run.sequence) || found.applied || !found.is_determined() || is_noise)
     return run.slam.trajectory();
   Sequence corrected = run.sequence;
@@ -116,10 +127,7 @@ Trajectory motions_for_scale(const SettledRun& run, const Executor& executor, Pr
 }
 
 double scale_sigma_by_disparities(const SettledRun& run) {
-  if (!is_stereo(run.sequence)) return 0;
-  const DisparityCalibration& found = run.disparities;
-  return scale_by_disparity(run.slam.map) *
-         std::max(found.sigma[0] / kFieldSigmaInflation, found.halves_differ_px / 2);
+  return is_stereo(run.sequence) ? scale_by_disparity(run.slam.map) * run.field_sigma_px : 0;
 }
 
 std::vector<Quantity> quantities_of(const SettledRun& run) {

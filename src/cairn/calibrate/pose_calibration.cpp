@@ -85,17 +85,22 @@ void compare_halves(PoseFitProblem problem, const PoseFit& whole, PoseTerms& sig
   }
 }
 
-std::string why_undetermined(Eigen::Index term, const PoseCalibration& found) {
+/// Says why a term is undetermined; `by_scatter` is its standard deviation without a look at both halves.
+std::string why_undetermined(Eigen::Index term, const PoseCalibration& found, double by_scatter) {
   const std::string known =
       fmt::format("known to {} only, and {} is needed", describe(term, found.sigma[term]),
                   describe(term, limits_of(term).sigma));
+  if (by_scatter <= limits_of(term).sigma)
+    return term == scale_term
+               ? known + ": both halves of the recording differ, or disparities are not well known"
+               : known + ": both halves of the recording differ";
   if (term == scale_term) return fmt::format("{}: the camera moves by {:.1f} m in all", known, found.path_m);
   if (term == time_term) return known + ": speed and turning change too little";
   return fmt::format("{}: the camera turns too little about the other axes ({:.0f} deg in all)", known,
                      found.turn_deg);
 }
 
-void judge(PoseCalibration& found) {
+void judge(const PoseTerms& by_scatter, PoseCalibration& found) {
   constexpr double kSigmas = 3;
   for (Eigen::Index i = 0; i < found.value.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -103,7 +108,7 @@ void judge(PoseCalibration& found) {
     const double size = std::abs(found.value[i]);
     if (found.sigma[i] > limits.sigma) {
       found.findings[k] = Finding::undetermined;
-      found.why[k] = why_undetermined(i, found);
+      found.why[k] = why_undetermined(i, found, by_scatter[i]);
     } else {
       found.findings[k] =
           size > kSigmas * found.sigma[i] && size > limits.least ? Finding::off : Finding::as_stated;
@@ -156,9 +161,10 @@ PoseCalibration calibrate_poses(const Trajectory& visual, const GivenPath& given
                           found);
     return found;
   }
+  const PoseTerms by_scatter = found.sigma;
   compare_halves(problem, fit, found.sigma);
   found.sigma[scale_term] = std::hypot(found.sigma[scale_term], options.scale_sigma);
-  judge(found);
+  judge(by_scatter, found);
   if (!problem.with_time)
     found.why[time_term] = options.has_times ? "the poses are too far apart in time to be interpolated"
                                              : "the recording has no times";

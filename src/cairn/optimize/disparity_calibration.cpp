@@ -86,12 +86,16 @@ void judge_field(const BundleProblem& problem, double cost_without, double cost_
   calibration.cost_fall = cost_without > 0 ? std::max(0.0, 1 - cost_with / cost_without) : 0;
   calibration.halves_differ_px = 0;
   if (!calibration.should_be_applied()) return;  // both halves take as long as the whole
+  calibration.halves_differ_px = halves_difference_px(problem, executor);
+}
+
+double halves_difference_px(const BundleProblem& problem, const Executor& executor) {
   const std::size_t count = problem.camera_fixed.size();
   BundleProblem first = part_of(problem, 0, count / 2), second = part_of(problem, count / 2, count);
   const DisparityField none = DisparityField::Zero();
   const DisparityField difference =
       adjust_with_field(first, none, executor).field - adjust_with_field(second, none, executor).field;
-  calibration.halves_differ_px = rms_of(difference, problem);
+  return rms_of(difference, problem);
 }
 
 }  // namespace cairn

@@ -44,6 +44,10 @@ struct DisparityCalibration {
 [[nodiscard]] FieldReport estimate_field(BundleProblem& problem, const DisparityField& from,
                                          const Executor& executor, DisparityCalibration& calibration);
 
+/// Computes the root mean square over the disparities of the difference between the fields of the first and
+/// the second half of the cameras.
+[[nodiscard]] double halves_difference_px(const BundleProblem& problem, const Executor& executor);
+
 /// Judges a field that was estimated for a problem: sets what it explains of the cost, and, where that speaks
 /// for it, how far both halves of the cameras agree.
 void judge_field(const BundleProblem& problem, double cost_without, double cost_with,
