@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """cairn calibrate on simulated streets with planted errors. Arguments: the program."""
 
+import re
+
 import program
 
 PLANTED = {"baseline factor": 1.005, "time offset": 0.02, "boresight x": 0.2, "boresight y": -0.2, "boresight z": 0.2,
@@ -98,6 +100,40 @@ class TurnedCamera(Calibrate):
         runs = [self.cairn("calibrate", "street", "--poses", "street/body_poses.csv", "-o", "found.yaml", "--json", "--threads", threads)
                 + (self.folder / "found.yaml").rename(self.folder / f"{threads}.yaml").read_text() for threads in (1, 2)]
         self.assertEqual(runs[0], runs[1])
+
+
+class ShiftedDepth(program.Quality):
+    """A room whose depth images lie beside their colour images, or are later."""
+
+    def setUp(self):
+        super().setUp()
+        self.cairn("simulate", "room", "-o", "seq", "--frames-count", "200", "--quiet")
+
+    def calibrate(self, output, *options):
+        return {quantity["name"]: quantity for quantity in self.figures("calibrate", "seq", "-o", output, *options)["quantities"]}
+
+    def test_a_shift_is_found_and_written(self):
+        camera = self.folder / "seq/camera.yaml"
+        right = camera.read_text()
+        moved = re.search("camera: ({.*})", right).group(1).replace("cx: 319.5", "cx: 323.5").replace("cy: 239.5", "cy: 236.5")
+        camera.write_text(right.replace("depth:", f"depth:\n  camera: {moved}"))
+        found = self.calibrate("found.yaml")
+        for name, planted in (("depth shift u", 4), ("depth shift v", -3)):
+            self.assertEqual((found[name]["finding"], found[name]["written"]), ("off", True), found[name])
+            self.assertAlmostEqual(found[name]["value"], planted, delta=0.6)
+        again = self.calibrate("again.yaml", "--camera", "found.yaml")
+        self.assertEqual([name for name, quantity in again.items() if quantity["finding"] == "off"], [])
+
+    def test_a_delay_is_found_where_there_is_one(self):
+        without = self.calibrate("without.yaml")
+        self.assertEqual([name for name, quantity in without.items() if quantity["finding"] == "off"], [])
+        self.assertEqual(without["depth delay"]["finding"], "as stated")
+        (self.folder / "seq/associations.txt").unlink()
+        lines = [line.split() for line in (self.folder / "seq/depth.txt").read_text().splitlines()[1:]]
+        (self.folder / "seq/depth.txt").write_text("".join(f"{a[0]} {b[1]}\n" for a, b in zip(lines, lines[1:])))
+        found = self.calibrate("found.yaml")["depth delay"]  # by a thirtieth of a second
+        self.assertEqual(found["finding"], "off", found)
+        self.assertAlmostEqual(found["value"], 1 / 30, delta=0.006)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,10 @@
 #include "cairn/calibrate/calibrate.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
+#include "cairn/calibrate/depth_shift.h"
 #include "cairn/calibrate/pair_calibration.h"
 
 namespace cairn {
@@ -51,6 +53,37 @@ void compare_with_poses(const Trajectory& visual, const GivenPath& given,
   result.quantities.insert(result.quantities.end(), quantities.begin(), quantities.end());
 }
 
+/// Moves the depth images and runs again until no shift is left, at most four times. Returns the quantities
+/// of the shift.
+std::vector<Quantity> settle_depth(SettledRun& run, const SlamOptions& options, const Executor& executor,
+                                   Progress& progress) {
+  constexpr int kMostRuns = 4;
+  DepthShift left = measure_depth_shift(run.sequence, run.slam, executor);
+  const auto is_off = [&](std::size_t k) { return left.findings[k] == Finding::off; };
+  std::array<bool, 2> was_off{};
+  Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+  for (int i = 1; i < kMostRuns && (is_off(0) || is_off(1)) && !run.slam.stopped; ++i) {
+    Eigen::Vector2d step = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < 2; ++k) {
+      was_off[k] = was_off[k] || is_off(k);
+      if (was_off[k]) step[static_cast<Eigen::Index>(k)] = left.value[static_cast<Eigen::Index>(k)];
+    }
+    moved += step;
+    move_depth(step, run.sequence.calibration);
+    run = run_until_settled(run.sequence, options, executor, progress);
+    left = measure_depth_shift(run.sequence, run.slam, executor);
+  }
+  std::vector<Quantity> quantities = quantities_of(left);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (!was_off[k]) continue;
+    quantities[k].value = moved[static_cast<Eigen::Index>(k)];  // what is left is not significant
+    quantities[k].finding = Finding::off;
+    quantities[k].why.clear();
+    quantities[k].is_written = true;
+  }
+  return quantities;
+}
+
 }  // namespace
 
 bool CalibrationResult::has_answer() const {
@@ -61,8 +94,10 @@ bool CalibrationResult::has_answer() const {
 CalibrationResult calibrate(const Sequence& recorded, const std::optional<GivenPath>& given,
                             const CalibrateOptions& options, const Executor& executor, Progress& progress) {
   CalibrationResult result;
-  const SettledRun run = run_until_settled(recorded, options.slam, executor, progress);
+  SettledRun run = run_until_settled(recorded, options.slam, executor, progress);
   result.quantities = quantities_of(run);
+  if (recorded.calibration.depth && !run.slam.map.keyframes().empty())
+    result.quantities = settle_depth(run, options.slam, executor, progress);
   result.rows = run.rows;
   result.rows_applied = run.rows_applied;
   result.disparities = run.disparities;

@@ -39,6 +39,13 @@ void add_reasons(const std::vector<Quantity>& quantities, TextBuilder& text) {
   }
 }
 
+/// Says what to do about a delay of depth images, for which a calibration has no place.
+void add_delay_advice(const std::vector<Quantity>& quantities, TextBuilder& text) {
+  for (const Quantity& quantity : quantities)
+    if (quantity.name == "depth delay" && quantity.finding == Finding::off)
+      text.add("depth delay: add {:.4f} s to the stamps of the depth images\n", quantity.value);
+}
+
 /// Says what to do about the time offset and the factor of lengths, which are not written by themselves.
 void add_advice(const CalibrationSummary& summary, TextBuilder& text) {
   const auto& poses = summary.result.poses;
@@ -102,6 +109,7 @@ std::string format_calibration_text(const CalibrationSummary& summary) {
     text.add("poses        none: baseline, time offset, boresight and lever arm need --poses\n");
   text.append(table_of(result.quantities));
   add_reasons(result.quantities, text);
+  add_delay_advice(result.quantities, text);
   add_advice(summary, text);
   if (!summary.output.empty()) text.add("written to   {}\n", summary.output);
   return text.take();
