@@ -37,6 +37,7 @@ ROOMS = {
     "optimize": {"ceres"},
     "observe": set(),
     "slam": set(),
+    "calibrate": set(),
     "survey": set(),
     "localize": set(),
     "dense": {"octomap"},

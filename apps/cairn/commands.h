@@ -8,6 +8,7 @@ namespace cairn::app {
 int run_simulate(int argc, char** argv);
 int run_info(int argc, char** argv);
 int run_rectify(int argc, char** argv);
+int run_calibrate(int argc, char** argv);
 int run_slam(int argc, char** argv);
 int run_map(int argc, char** argv);
 int run_localize(int argc, char** argv);

@@ -128,8 +128,9 @@ Sequence open_query(const std::string& path, const SequenceOptions& options, con
   if (fs::is_directory(path, error) && !is_sequence(path, options))
     if (const auto images = images_in(path); !images.empty()) return sequence_of(images, path, options, map);
   Sequence sequence = open_sequence(path, options);
-  // A pair that is calibrated as that of the map shows the same errors.
-  if (is_stereo(sequence) && are_same(rig_of(sequence.calibration, {}), map.rig))
+  // A pair that is calibrated as that of the map shows the same errors. If the map corrects none, what is
+  // stated stays.
+  if (is_stereo(sequence) && map.right_correction && are_same(rig_of(sequence.calibration, {}), map.rig))
     sequence.calibration.right_correction = map.right_correction;
   if (!mono) return sequence;
   for (FrameFiles& files : sequence.frames) {

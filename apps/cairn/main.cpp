@@ -25,6 +25,7 @@ constexpr Command kCommands[] = {
      cairn::app::run_simulate},
     {"info", "say what a sequence or a map is: format, frames, cameras, truth", cairn::app::run_info},
     {"rectify", "the rectified pairs of a stereo sequence, in KITTI layout", cairn::app::run_rectify},
+    {"calibrate", "find what is wrong with the calibration of a recording", cairn::app::run_calibrate},
     {"slam", "RGB-D or stereo sequence to trajectory and map, coloured cloud and octree",
      cairn::app::run_slam},
     {"map", "stereo or RGB-D sequence with its poses to a map of landmarks", cairn::app::run_map},

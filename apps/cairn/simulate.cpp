@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "cairn/core/file.h"
@@ -21,6 +22,10 @@ struct Arguments {
   double scale = 1;  ///< of the image size
   bool depth_truth = false;
   std::array<double, 3> right_rotation_deg{};
+  bool body_poses = false;
+  double pose_time_offset_s = 0;
+  std::array<double, 3> lever_arm_error{}, boresight_error_deg{};
+  std::string route = "block";
 };
 
 /// What every simulated sequence has, with `Options` for its own defaults.
@@ -69,13 +74,45 @@ void add_planted_errors(CommandLine& street, SimulateStreetOptions& options, Arg
       .type_name("PERCENT");
 }
 
+/// Adds the poses of the car's body and their errors, which what is written states nothing of.
+void add_body_poses(CommandLine& street, Arguments& arguments) {
+  constexpr double kMost = 10;
+  street.add_flag("--body-poses", arguments.body_poses,
+                  "also body_poses.csv, poses of the car's body, 100 a second, and camera.yaml with the "
+                  "camera's place on it; so do the next three");
+  street
+      .add_option("--pose-time-offset", arguments.pose_time_offset_s,
+                  "seconds, -10 to 10, that have to be added to the stamps of body_poses.csv")
+      .check(number_in(-kMost, kMost))
+      .type_name("S");
+  street
+      .add_option("--lever-arm-error", arguments.lever_arm_error,
+                  "metres, -10 to 10, of the true lever arm less the stated one, in the body's axes: "
+                  "forward, left, up")
+      .check(number_in(-kMost, kMost))
+      .type_name("X Y Z");
+  street
+      .add_option("--boresight-error", arguments.boresight_error_deg,
+                  "degrees, -10 to 10, by which the camera is turned out of the stated boresight: rotation "
+                  "vector in the body's axes")
+      .check(number_in(-kMost, kMost))
+      .type_name("RX RY RZ");
+}
+
 void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arguments& arguments) {
   add_shared_options(street, options, arguments);
   add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
   street.add_option("--baseline", options.baseline, "metres between the two cameras")
       .show_default()
       .type_name("B");
+  street
+      .add_option("--route", arguments.route,
+                  "block: around a block; straight: along one street, at constant speed")
+      .check(one_of({"block", "straight"}))
+      .show_default()
+      .type_name("NAME");
   add_planted_errors(street, options, arguments);
+  add_body_poses(street, arguments);
   street.add_flag("--depth-truth", arguments.depth_truth,
                   "also the left camera's true depth, 16 bit, 1/256 m");
 }
@@ -101,12 +138,28 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   print_report(arguments, report, folder, fmt::format("cairn slam {} -o run", folder));
 }
 
+/// Returns the poses of the body that were asked for, by the flag or by one of their errors.
+std::optional<SimulatedBodyPoses> body_poses_of(const Arguments& arguments) {
+  const auto vector_of = [](const std::array<double, 3>& values) {
+    return Eigen::Vector3d(values[0], values[1], values[2]);
+  };
+  SimulatedBodyPoses poses;
+  poses.time_offset_s = arguments.pose_time_offset_s;
+  poses.lever_arm_error = vector_of(arguments.lever_arm_error);
+  poses.boresight_error_deg = vector_of(arguments.boresight_error_deg);
+  const bool are_wrong =
+      poses.time_offset_s != 0 || !poses.lever_arm_error.isZero(0) || !poses.boresight_error_deg.isZero(0);
+  return arguments.body_poses || are_wrong ? std::optional(poses) : std::nullopt;
+}
+
 void simulate_street(const Arguments& arguments, SimulateStreetOptions options) {
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = StreetNoise::none;
   const auto& [x, y, z] = arguments.right_rotation_deg;
   options.right_rotation_deg = {x, y, z};
+  options.body_poses = body_poses_of(arguments);
+  if (arguments.route == "straight") options.route = StreetRoute::straight;
   options.validate();
   OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);

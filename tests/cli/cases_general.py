@@ -26,6 +26,12 @@ CASES = [
     Case("a rotation in a room", "simulate room -o out --right-rotation 0 1 0", ("--right-rotation",)),
     Case("a baseline far from the stated one", "simulate street -o out --baseline-error -21",
          ("--baseline-error", "'-21' is no number from -20 to 20")),
+    Case("a lever arm of kilometres", "simulate street -o out --lever-arm-error 0 1000 0", ("--lever-arm-error", "'1000' is no number from -10 to 10")),
+    Case("a boresight about two axes", "simulate street -o out --boresight-error 0 1", ("--boresight-error", "3 required")),
+    Case("a route of no name", "simulate street -o out --route zigzag", ("--route", "zigzag", "straight")),
+    Case("rounds on a straight street", "simulate street -o out --route straight --loops 2 --quiet", ("--loops", "0 on a straight street")),
+    Case("poses of the body", "simulate street -o out --frames-count 1 --scale 0.05 --pose-time-offset -0.02 --quiet", code=0,
+         prints=("frames       1",), leaves=("out", "out/body_poses.csv", "out/camera.yaml")),
     Case("errors of the right camera", "simulate street -o out --frames-count 1 --scale 0.05 --right-rotation -0.2 0.1 -.3 "
          "--baseline-error=-2 --quiet", code=0, prints=("frames       1",), leaves=("out",)),
     Case("output is a file", "simulate room -o out",

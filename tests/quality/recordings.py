@@ -76,6 +76,14 @@ class Highway(program.Quality):
         self.cairn("slam", sequence, "-o", "run2", "--threads", "2", "--quiet")
         self.assert_same_files("run1", "run2", but=("run.json",))
 
+    def test_a_calibration_that_is_written_serves_later_runs(self):
+        sequence = program.recordings() / "stereo/odo01"
+        found = self.figures("calibrate", sequence, "-o", "found.yaml")["stereo_calibration"]
+        self.assertTrue(found["rows"]["applied"] and found["disparities"]["applied"], found)
+        self.assertLessEqual(self.figures("slam", sequence, "-o", "run", "--camera", "found.yaml")["ate_rmse_m"], 0.25)
+        again = self.figures("calibrate", sequence, "--camera", "found.yaml", "-o", "again.yaml")["stereo_calibration"]
+        self.assertFalse(again["rows"]["applied"] or again["disparities"]["applied"], again)
+
     def test_poses_are_not_moved_to_fit_wrong_disparities(self):
         sequence = program.recordings() / "stereo/odo01"
         done = self.figures("map", sequence, "-o", "map1", "--threads", "1")

@@ -110,6 +110,15 @@ RowField fit_field(std::span<const RowReading> readings) {
   return field;
 }
 
+/// Computes the standard deviations of the terms of a field by the scatter of the readings about it.
+RowField formal_sigma(std::span<const RowReading> readings, double scatter) {
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  for (const RowReading& reading : readings) normal += reading.basis * reading.basis.transpose();
+  normal.diagonal().array() += 1e-6;  // against terms that no reading shows
+  const Eigen::Matrix<double, 6, 6> inverse = normal.ldlt().solve(Eigen::Matrix<double, 6, 6>::Identity());
+  return scatter * inverse.diagonal().cwiseMax(0).cwiseSqrt();
+}
+
 double rms_of(const RowField& field, std::span<const RowReading> readings) {
   double squares = 0;
   for (const RowReading& reading : readings) squares += std::pow(field.dot(reading.basis), 2);
@@ -147,7 +156,9 @@ RowErrors measure_row_errors(const Sequence& sequence, const Executor& executor)
   errors.field = fit_field(all);
   errors.rms_px = rms_of(errors.field, all);
   errors.scatter_px = robust_deviation(residuals(all, errors.field));
-  errors.halves_differ_px = rms_of(fit_field(all.first(middle)) - fit_field(all.subspan(middle)), all);
+  const RowField difference = fit_field(all.first(middle)) - fit_field(all.subspan(middle));
+  errors.halves_differ_px = rms_of(difference, all);
+  errors.sigma = formal_sigma(all, errors.scatter_px).cwiseMax(difference.cwiseAbs() / 2);
   return errors;
 }
 

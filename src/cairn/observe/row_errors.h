@@ -12,10 +12,13 @@ namespace cairn {
 /// Holds how far the rows of a recording's stereo pairs are from one another, of what both images show.
 struct RowErrors {
   RowField field = RowField::Zero();  ///< left row less right row
-  int pairs = 0;                      ///< pairs with matches
-  int matches = 0;                    ///< windows found in both images
-  double rms_px = 0;                  ///< of the field over the matches
-  double scatter_px = 0;              ///< robust standard deviation of the matches about the field
+  /// Standard deviations of its terms, pixels: by the scatter of the matches, or half of what both halves of
+  /// the pairs differ by if that is more.
+  RowField sigma = RowField::Zero();
+  int pairs = 0;          ///< pairs with matches
+  int matches = 0;        ///< windows found in both images
+  double rms_px = 0;      ///< of the field over the matches
+  double scatter_px = 0;  ///< robust standard deviation of the matches about the field
   /// Root mean square over the matches of the difference between the fields of the first and the second half
   /// of the pairs.
   double halves_differ_px = 0;

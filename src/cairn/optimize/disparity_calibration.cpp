@@ -7,9 +7,6 @@
 namespace cairn {
 namespace {
 
-/// Says how many times too small the formal standard deviations of a field are: fields of both halves of six
-/// recordings differed by 2 to 11 of them.
-constexpr double kSigmaInflation = 10;
 /// Standard deviation of each term before anything is seen, pixels: with 700 px of focal length that of a
 /// camera turned by a twelfth of a degree.
 constexpr double kPriorPx = 1;
@@ -50,7 +47,8 @@ BundleOptions until_converged() {
 }
 
 FieldReport adjust_with_field(BundleProblem& problem, DisparityField field, const Executor& executor) {
-  return adjust_bundle_with_field(problem, field, until_converged(), {kPriorPx / kSigmaInflation}, executor);
+  return adjust_bundle_with_field(problem, field, until_converged(), {kPriorPx / kFieldSigmaInflation},
+                                  executor);
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ FieldReport estimate_field(BundleProblem& problem, const DisparityField& from, c
   FieldReport report = adjust_with_field(problem, from, executor);
   ++calibration.estimates;
   calibration.field = report.field;
-  calibration.sigma = kSigmaInflation * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  calibration.sigma = kFieldSigmaInflation * report.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   calibration.rms_px = rms_of(report.field, problem);
   calibration.disparities = static_cast<std::int64_t>(report.disparities);
   return report;
@@ -88,12 +86,16 @@ void judge_field(const BundleProblem& problem, double cost_without, double cost_
   calibration.cost_fall = cost_without > 0 ? std::max(0.0, 1 - cost_with / cost_without) : 0;
   calibration.halves_differ_px = 0;
   if (!calibration.should_be_applied()) return;  // both halves take as long as the whole
+  calibration.halves_differ_px = halves_difference_px(problem, executor);
+}
+
+double halves_difference_px(const BundleProblem& problem, const Executor& executor) {
   const std::size_t count = problem.camera_fixed.size();
   BundleProblem first = part_of(problem, 0, count / 2), second = part_of(problem, count / 2, count);
   const DisparityField none = DisparityField::Zero();
   const DisparityField difference =
       adjust_with_field(first, none, executor).field - adjust_with_field(second, none, executor).field;
-  calibration.halves_differ_px = rms_of(difference, problem);
+  return rms_of(difference, problem);
 }
 
 }  // namespace cairn

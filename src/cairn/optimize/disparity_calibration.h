@@ -9,6 +9,10 @@
 
 namespace cairn {
 
+/// Says how many times too small the formal standard deviations of a field are: fields of both halves of six
+/// recordings differed by 2 to 11 of them.
+constexpr double kFieldSigmaInflation = 10;
+
 /// Holds what a bundle says of the field of a stereo pair's disparities, and what was done about it.
 struct DisparityCalibration {
   DisparityField field = DisparityField::Zero();  ///< pixels
@@ -39,6 +43,10 @@ struct DisparityCalibration {
 /// takes field, sigma, rms and counts.
 [[nodiscard]] FieldReport estimate_field(BundleProblem& problem, const DisparityField& from,
                                          const Executor& executor, DisparityCalibration& calibration);
+
+/// Computes the root mean square over the disparities of the difference between the fields of the first and
+/// the second half of the cameras.
+[[nodiscard]] double halves_difference_px(const BundleProblem& problem, const Executor& executor);
 
 /// Judges a field that was estimated for a problem: sets what it explains of the cost, and, where that speaks
 /// for it, how far both halves of the cameras agree.

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/ratio.h"
@@ -45,9 +47,16 @@ double angle_deg(const Eigen::Quaterniond& rotation) {
   return rotation_angle(rotation) * 180.0 / std::numbers::pi;
 }
 
+Json to_json(const std::optional<StereoCorrection>& correction) {
+  if (!correction) return nullptr;
+  return {{"rows_px", std::vector<double>(correction->rows.begin(), correction->rows.end())},
+          {"disparity_px", std::vector<double>(correction->disparity.begin(), correction->disparity.end())}};
+}
+
 void add_stereo(const Calibration& calibration, TextBuilder& text) {
   if (!calibration.baseline) return;
-  text.add("stereo       baseline {:.6g} m\n", *calibration.baseline);
+  text.add("stereo       baseline {:.6g} m{}\n", *calibration.baseline,
+           calibration.right_correction ? ", right images corrected" : "");
   if (!calibration.raw_stereo) return;
   const auto& [pair, rectification] = *calibration.raw_stereo;
   text.add("raw left     {}\n", describe(pair.left));
@@ -136,6 +145,7 @@ std::string format_sequence_json(const Sequence& sequence, std::int64_t unreadab
   json["camera"] = to_json(sequence.calibration.camera);
   json["depth_scale"] = sequence.calibration.depth ? Json(sequence.calibration.depth->scale) : Json();
   json["baseline_m"] = sequence.calibration.baseline ? Json(*sequence.calibration.baseline) : nullptr;
+  json["right_correction"] = to_json(sequence.calibration.right_correction);
   json["raw_stereo"] = sequence.calibration.raw_stereo ? to_json(*sequence.calibration.raw_stereo) : nullptr;
   json["truth_poses"] = sequence.truth ? sequence.truth->size() : 0;
   json["truth_path_m"] = sequence.truth ? path_length_m(*sequence.truth) : 0.0;

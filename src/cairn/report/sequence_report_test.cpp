@@ -57,6 +57,12 @@ TEST(SequenceReport, tells_the_baseline_and_the_way_of_the_truth) {
             std::string::npos);
   const auto json = nlohmann::json::parse(format_sequence_json(sequence, 0));
   EXPECT_EQ(json["baseline_m"], 0.54);
+  EXPECT_TRUE(json["right_correction"].is_null());
+  sequence.calibration.right_correction.emplace().disparity = {0.5, 0, -1};
+  EXPECT_NE(format_sequence_text(sequence, 0).find("baseline 0.54 m, right images corrected\n"),
+            std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(format_sequence_json(sequence, 0))["right_correction"]["disparity_px"][2],
+            -1);
   EXPECT_TRUE(json["depth_scale"].is_null());
   EXPECT_EQ(json["truth_poses"], 3);
   EXPECT_EQ(json["truth_path_m"], 6.0);

@@ -104,8 +104,26 @@ DepthCalibration parse_depth(const YamlMapping& mapping) {
   return depth;
 }
 
+StereoCorrection parse_correction(const YamlMapping& mapping) {
+  constexpr double kLargestPx = 1000;
+  StereoCorrection correction;
+  const auto read = [&](const std::string& key, auto& terms, const std::string& kind) {
+    if (!mapping.has(key)) return;
+    const std::vector<double> values = mapping.numbers(key, static_cast<std::size_t>(terms.size()), kind);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      mapping.check(std::abs(values[i]) <= kLargestPx, key, "terms of at most 1000 pixels");
+      terms[static_cast<Eigen::Index>(i)] = values[i];
+    }
+  };
+  read("rows", correction.rows, "six numbers, pixels");
+  read("disparity", correction.disparity, "three numbers, pixels");
+  return correction;
+}
+
 /// The second camera of a rectified pair, by its distance, or of a raw one.
 void parse_right(const YamlMapping& mapping, Calibration& calibration) {
+  if (mapping.has("correction"))
+    calibration.right_correction = parse_correction(mapping.sub("correction", {"rows", "disparity"}));
   if (!mapping.has("camera")) {
     calibration.baseline = mapping.positive("baseline");
     return;
@@ -138,6 +156,19 @@ std::string format_camera(const Camera& c) {
   return fmt::format("{{model: {}, width: {}, height: {}, fx: {}, fy: {}, cx: {}, cy: {}, distortion: [{}]}}",
                      to_string(c.model), c.width, c.height, c.fx, c.fy, c.cx, c.cy,
                      fmt::join(distortion, ", "));
+}
+
+std::string format_right(const Calibration& calibration) {
+  std::string text = "right:\n";
+  if (const auto& raw = calibration.raw_stereo)
+    text += fmt::format("  camera: {}\n  left_from_right: {}\n", format_camera(raw->pair.right),
+                        format_transform(raw->pair.left_from_right));
+  else
+    text += fmt::format("  baseline: {}\n", *calibration.baseline);
+  if (const auto& correction = calibration.right_correction)
+    text += fmt::format("  correction:\n    rows: [{}]\n    disparity: [{}]\n",
+                        fmt::join(correction->rows, ", "), fmt::join(correction->disparity, ", "));
+  return text;
 }
 
 Calibration tum_calibration(double fx, double fy, double cx, double cy,
@@ -199,7 +230,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
         parse_depth(mapping.sub("depth", {"scale", "invalid", "camera", "camera_from_depth"}));
   }
   if (mapping.has("right"))
-    parse_right(mapping.sub("right", {"baseline", "camera", "left_from_right"}), calibration);
+    parse_right(mapping.sub("right", {"baseline", "camera", "left_from_right", "correction"}), calibration);
   if (mapping.has("body"))
     calibration.body_from_camera = parse_body(mapping.sub("body", {"body_from_camera"}));
   if (mapping.has("poses_are")) {
@@ -218,12 +249,7 @@ Calibration read_calibration(const std::filesystem::path& path) {
 std::string format_calibration(const Calibration& calibration) {
   const auto& raw = calibration.raw_stereo;
   std::string text = fmt::format("camera: {}\n", format_camera(raw ? raw->pair.left : calibration.camera));
-  if (raw) {
-    text += fmt::format("right:\n  camera: {}\n  left_from_right: {}\n", format_camera(raw->pair.right),
-                        format_transform(raw->pair.left_from_right));
-  } else if (calibration.baseline) {
-    text += fmt::format("right: {{baseline: {}}}\n", *calibration.baseline);
-  }
+  if (calibration.baseline) text += format_right(calibration);
   if (calibration.depth) {
     const DepthCalibration& depth = *calibration.depth;
     text +=

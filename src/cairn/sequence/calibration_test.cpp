@@ -50,6 +50,32 @@ TEST_F(CalibrationTest, reads_all_that_there_is) {
   EXPECT_EQ(read_back.rate_hz, 15);
 }
 
+TEST_F(CalibrationTest, reads_the_correction_of_the_right_camera) {
+  const std::string camera = kCamera;
+  const Calibration whole = read(
+      camera + "right: {baseline: 1, correction: {rows: [1, 2, 3, 4, 5, -6.5], disparity: [0.5, 0, -1]}}\n");
+  ASSERT_TRUE(whole.right_correction);
+  EXPECT_EQ(whole.right_correction->rows, (RowField() << 1, 2, 3, 4, 5, -6.5).finished());
+  EXPECT_EQ(whole.right_correction->disparity, DisparityField(0.5, 0, -1));
+  const Calibration part = read(camera + "right: {baseline: 1, correction: {disparity: [0.5, 0, -1]}}\n");
+  ASSERT_TRUE(part.right_correction);
+  EXPECT_TRUE(part.right_correction->rows.isZero(0));
+  EXPECT_FALSE(read(camera + "right: {baseline: 1}\n").right_correction);
+}
+
+TEST_F(CalibrationTest, a_raw_pair_keeps_its_cameras_beside_the_correction) {
+  Calibration raw = read(kCamera);
+  const LeftFromRight left_from_right(Rigid3{rotation_exp({0.01, 0.02, -0.01}), {0.2, 0, 0.01}});
+  set_raw_stereo({raw.camera, raw.camera, left_from_right}, {}, raw);
+  raw.right_correction.emplace().rows << 0.1, 0, 0, -7, 0, 1.0 / 3.0;
+  const Calibration back = read(format_calibration(raw));
+  ASSERT_TRUE(back.raw_stereo && back.right_correction);
+  EXPECT_EQ(back.raw_stereo->pair.left_from_right.translation, left_from_right.translation);
+  EXPECT_EQ(back.baseline, raw.baseline);
+  EXPECT_EQ(back.right_correction->rows, raw.right_correction->rows);
+  EXPECT_TRUE(back.right_correction->disparity.isZero(0));
+}
+
 TEST_F(CalibrationTest, little_is_enough) {
   const Calibration read_back = read(kCamera);
   EXPECT_EQ(read_back.camera.model, CameraModel::pinhole);
@@ -198,6 +224,16 @@ TEST_F(CalibrationTest, wrong_lists_are_refused_by_line) {
       {with("translation: [-0.02, 0, 0.01], ", ""), 8,
        "expected 'translation' in 'camera_from_depth' (three numbers, metres), found none.\n  Add "
        "'translation'."},
+      {std::string(kCamera) + "right: {baseline: 1, correction: {rows: [1, 2]}}", 2,
+       "expected six numbers, pixels for 'rows', found a list of 2.\n  Correct the value."},
+      {std::string(kCamera) + "right: {baseline: 1, correction: {disparity: [1, 2, .nan]}}", 2,
+       "expected finite numbers for 'disparity', found a list of 3.\n  Correct the value."},
+      {std::string(kCamera) + "right: {baseline: 1, correction: {disparity: [1, 2, 1e4]}}", 2,
+       "expected terms of at most 1000 pixels for 'disparity', found a list of 3.\n  Correct the value."},
+      {std::string(kCamera) + "right: {baseline: 1, correction: {columns: [1]}}", 2,
+       "expected a known key in 'correction', found 'columns'.\n  Did you mean 'rows'?"},
+      {std::string(kCamera) + "right: {correction: {rows: [0, 0, 0, 0, 0, 0]}}", 2,
+       "expected 'baseline' in 'right' (a number), found none.\n  Add 'baseline'."},
       {std::string(kCamera) + "body: {lever: 1}", 2,
        "expected a known key in 'body', found 'lever'.\n  Did you mean 'body_from_camera'?"},
       {std::string(kCamera) + "body: {}", 2,
@@ -222,6 +258,8 @@ TEST_F(CalibrationTest, format_is_read_back) {
   calibrations[1].camera.distortion = {1.0 / 3.0, 1e-17, -2, 0, 0};
   calibrations[1].depth =
       DepthCalibration{1.0 / 7.0, {0, 9}, std::nullopt, {rotation_exp({1, 2, 3}), {4, 5, 6}}};
+  calibrations[0].right_correction = {(RowField() << 1.0 / 3.0, -2, 3e-9, 4, 5, 6).finished(),
+                                      {1.0 / 7.0, -0.25, 1e-17}};
   calibrations[2].body_from_camera = Rigid3{rotation_exp({0.3, -1, 2}), {1.5, 1.0 / 3.0, -0.2}};
   for (const Calibration& calibration : calibrations) {
     const Calibration back = read(format_calibration(calibration));
@@ -229,6 +267,11 @@ TEST_F(CalibrationTest, format_is_read_back) {
     EXPECT_EQ(back.baseline, calibration.baseline);
     EXPECT_EQ(back.poses_are, calibration.poses_are);
     EXPECT_EQ(back.rate_hz, calibration.rate_hz);
+    ASSERT_EQ(back.right_correction.has_value(), calibration.right_correction.has_value());
+    if (back.right_correction) {
+      EXPECT_EQ(back.right_correction->rows, calibration.right_correction->rows);
+      EXPECT_EQ(back.right_correction->disparity, calibration.right_correction->disparity);
+    }
     ASSERT_EQ(back.body_from_camera.has_value(), calibration.body_from_camera.has_value());
     if (back.body_from_camera) {
       EXPECT_EQ(back.body_from_camera->translation, calibration.body_from_camera->translation);

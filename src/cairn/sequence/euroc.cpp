@@ -91,8 +91,9 @@ void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence
     sequence.calibration_source = fmt::format("{} and cam1", left.string());
   }
   const fs::path truth = root / "state_groundtruth_estimate0/data.csv";
-  if (fs::exists(truth))
-    sequence.truth = read_truth_of_left(truth, read_body_from_sensor(left), sequence.report);
+  if (!fs::exists(truth)) return;
+  const auto& stated = sequence.calibration.body_from_camera;  // goes before what the format carries
+  sequence.truth = read_truth_of_left(truth, stated ? *stated : read_body_from_sensor(left), sequence.report);
 }
 
 }  // namespace cairn

@@ -11,6 +11,7 @@
 #include "cairn/sequence/formats.h"
 #include "cairn/sequence/geodetic.h"
 #include "cairn/sequence/pose_jumps.h"
+#include "cairn/sequence/pose_path.h"
 #include "cairn/sequence/pose_times.h"
 #include "cairn/sequence/recorded_poses.h"
 
@@ -132,17 +133,24 @@ GivenPose place_camera(const RecordedPose& body, const Rigid3& body_from_camera,
   return pose;
 }
 
-GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& options) {
-  RecordedPoses recorded =
+/// Holds poses that were read, in one world of metres, and which of them each frame lies between.
+struct PlacedPoses {
+  RecordedPoses recorded;
+  PoseSpans spans;
+  GivenPoses given;  ///< all but the frames
+};
+
+PlacedPoses place_poses(const Sequence& sequence, const GivenPosesOptions& options) {
+  PlacedPoses placed;
+  auto& [recorded, spans, given] = placed;
+  recorded =
       options.path.empty() ? own_poses(sequence) : read_recorded_poses(options.path, !has_clock(sequence));
-  const Rigid3 body_from_camera = subject_from_camera(sequence, recorded);
+  given.subject_from_camera = subject_from_camera(sequence, recorded);
   expect_one_for_each_frame(sequence, recorded);
-  GivenPoses given;
   if (recorded.key == PoseKey::stamp)
     given.time_offset_s = 1e-9 * static_cast<double>(shift_stamps(sequence, options, recorded));
-  const PoseSpans spans = spans_of_frames(sequence, recorded, options, given.time_offset_s);
+  spans = spans_of_frames(sequence, recorded, options, given.time_offset_s);
   given.source = recorded.source;
-  given.subject_from_camera = body_from_camera;
   given.format = recorded.format;
   given.warnings = recorded.warnings;
   warn_of_open_subject(sequence, recorded, given);
@@ -150,18 +158,80 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
     given.origin = options.origin.value_or(origin_at(recorded.poses[first_used(spans)].place));
     move_to_origin(*given.origin, recorded);
   }
-  for (const auto& span : spans) {
+  return placed;
+}
+
+/// Returns whether poses belong to frames by their numbers or order, so that they have no times of their own.
+bool are_by_frame(const Sequence& sequence, const RecordedPoses& recorded) {
+  return recorded.key != PoseKey::stamp || (recorded.format == "truth" && !has_clock(sequence));
+}
+
+GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& options) {
+  PlacedPoses placed = place_poses(sequence, options);
+  const RecordedPoses& recorded = placed.recorded;
+  GivenPoses given = std::move(placed.given);
+  for (const auto& span : placed.spans) {
     given.frames.emplace_back();
     if (span)
       given.frames.back() =
-          place_camera(pose_at(*span, recorded), body_from_camera, recorded.has_uncertainty);
+          place_camera(pose_at(*span, recorded), given.subject_from_camera, recorded.has_uncertainty);
     else
       ++given.without_pose;
   }
-  // where the reader of the file knew no times
-  if (recorded.key != PoseKey::stamp || (recorded.format == "truth" && !has_clock(sequence)))
-    warn_of_jumps(recorded.source.string(), sequence, given);
+  if (are_by_frame(sequence, recorded)) warn_of_jumps(recorded.source.string(), sequence, given);
   return given;
+}
+
+SubjectPose subject_pose(std::int64_t stamp_ns, const RecordedPose& pose) {
+  return {stamp_ns, {pose.rotation, pose.place}};
+}
+
+/// Returns whether the poses are the truth of the camera that was made from that of a body.
+bool is_truth_of_body(const Sequence& sequence, const RecordedPoses& recorded) {
+  return recorded.format == "truth" && sequence.format == "EuRoC" && sequence.calibration.body_from_camera;
+}
+
+GivenPath read_checked_path(const Sequence& sequence, const GivenPosesOptions& options) {
+  const PlacedPoses placed = place_poses(sequence, options);
+  const RecordedPoses& recorded = placed.recorded;
+  std::vector<SubjectPose> poses;
+  if (recorded.key == PoseKey::stamp) {
+    for (const RecordedPose& pose : recorded.poses) poses.push_back(subject_pose(pose.key, pose));
+  } else {
+    for (std::size_t i = 0; i < placed.spans.size(); ++i)
+      if (placed.spans[i])
+        poses.push_back(subject_pose(sequence.frames[i].stamp_ns, pose_at(*placed.spans[i], recorded)));
+  }
+  GivenPath given;
+  given.subject_from_camera = placed.given.subject_from_camera;
+  given.is_of_body =
+      recorded.subject != PoseSubject::camera &&
+      (recorded.subject != PoseSubject::not_stated || sequence.calibration.body_from_camera.has_value());
+  if (is_truth_of_body(sequence, recorded)) {
+    given.is_of_body = true;
+    given.subject_from_camera =
+        body_from_loaded_camera(sequence.calibration, *sequence.calibration.body_from_camera);
+    for (SubjectPose& pose : poses)
+      pose.world_from_subject = pose.world_from_subject * given.subject_from_camera.inverse();
+  }
+  given.path = PosePath(std::move(poses), options.max_gap_s);
+  given.is_by_frame = are_by_frame(sequence, recorded);
+  given.time_offset_s = placed.given.time_offset_s;
+  given.source = recorded.source;
+  given.format = recorded.format;
+  given.warnings = placed.given.warnings;
+  return given;
+}
+
+/// Returns what `read` gives. Throws InputError also for what the file system does not let us read.
+template <class Read>
+auto with_file_errors(Read read) {
+  try {
+    return read();
+  } catch (const fs::filesystem_error& error) {
+    throw InputError({error.path1().string(), 0, "a readable file or folder", error.code().message(),
+                      "Check the path and its permissions."});
+  }
 }
 
 }  // namespace
@@ -169,12 +239,13 @@ GivenPoses read_checked(const Sequence& sequence, const GivenPosesOptions& optio
 GivenPoses read_given_poses(const Sequence& sequence, const GivenPosesOptions& options) {
   require(!sequence.frames.empty(), "the sequence has frames");
   check_options(options);
-  try {
-    return read_checked(sequence, options);
-  } catch (const fs::filesystem_error& error) {
-    throw InputError({error.path1().string(), 0, "a readable file or folder", error.code().message(),
-                      "Check the path and its permissions."});
-  }
+  return with_file_errors([&] { return read_checked(sequence, options); });
+}
+
+GivenPath read_given_path(const Sequence& sequence, const GivenPosesOptions& options) {
+  require(!sequence.frames.empty(), "the sequence has frames");
+  check_options(options);
+  return with_file_errors([&] { return read_checked_path(sequence, options); });
 }
 
 std::vector<std::optional<WorldFromCamera>> camera_poses(const GivenPoses& given) {

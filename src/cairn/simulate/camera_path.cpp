@@ -101,6 +101,7 @@ StreetPath::StreetPath(const Shape& shape) : shape_(shape) {
     points_[i].heading = kTurn / 4 * (here.corners_behind + smoother_step(here.into_corner));
     times_[i] /= times_.back();
   }
+  start_of_straight_ = times_[steps - static_cast<std::size_t>(std::floor(straight_x / 2 / step))];
   const double half_y =
       points_[steps / 2].position.y() / 2;  // it begins at (0, 0), in the lower side's middle
   half_extent_ = {0, half_y};

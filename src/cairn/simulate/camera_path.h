@@ -57,12 +57,15 @@ class StreetPath {
   explicit StreetPath(const Shape& shape);
   /// Returns the point after `share` of the time of one round, in [0, 1].
   [[nodiscard]] PathPoint at(double share) const;
+  /// Returns the share at which the long straight begins in whose middle the round begins.
+  [[nodiscard]] double start_of_straight() const { return start_of_straight_; }
   /// Returns half of the block's extent in x and y, to the middle of the road, metres.
   [[nodiscard]] const Eigen::Vector2d& half_extent() const { return half_extent_; }
 
  private:
   Shape shape_;
   Eigen::Vector2d half_extent_;
+  double start_of_straight_ = 0;
   std::vector<PathPoint> points_;  // at equal steps of the way
   std::vector<double> times_;      // when each is reached, last = 1
 };

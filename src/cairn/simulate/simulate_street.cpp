@@ -33,7 +33,18 @@ double drive_length(const SimulateStreetOptions& options) {
   return options.speed * options.frames_count / options.rate_hz;
 }
 
+constexpr double kCorner = 24;  // metres at most
+
+/// Returns a round whose long straights hold the whole drive; on them the car is up to a fifth faster than on
+/// average.
+double round_with_straight(const SimulateStreetOptions& options) {
+  const double straight = 1.25 * drive_length(options) + 10;
+  const double both = straight * (1 + 1 / StreetPath::Shape{}.aspect);  // a long and a short one
+  return 2 * both + 4 * kCorner;
+}
+
 double round_length(const SimulateStreetOptions& options) {
+  if (options.route == StreetRoute::straight) return round_with_straight(options);
   const double length = drive_length(options);
   const double loops = options.loops > 0 ? options.loops : std::ceil(length / kMaxRound);
   return std::max(kMinRound, length / loops);
@@ -42,7 +53,7 @@ double round_length(const SimulateStreetOptions& options) {
 StreetPath path_for(const SimulateStreetOptions& options) {
   StreetPath::Shape shape;
   shape.length = round_length(options);
-  shape.corner_length = std::min(24.0, 0.16 * shape.length);
+  shape.corner_length = std::min(kCorner, 0.16 * shape.length);
   return StreetPath(shape);
 }
 
@@ -63,6 +74,16 @@ Camera simulated_stereo_camera() {
   return camera;
 }
 
+void SimulatedBodyPoses::validate() const {
+  constexpr double kMost = 10;  // metres, degrees, seconds
+  expect(rate_hz > 0 && rate_hz <= 1e4, "rate_hz", "a rate above 0, up to 10000 a second", rate_hz);
+  expect(std::abs(time_offset_s) <= kMost, "--pose-time-offset", "seconds from -10 to 10", time_offset_s);
+  for (const double length : lever_arm_error)
+    expect(std::abs(length) <= kMost, "--lever-arm-error", "metres from -10 to 10", length);
+  for (const double angle : boresight_error_deg)
+    expect(std::abs(angle) <= kMost, "--boresight-error", "angles from -10 to 10 degrees", angle);
+}
+
 void SimulateStreetOptions::validate() const {
   expect(frames_count >= 1 && frames_count <= 1'000'000, "--frames-count", "1 to 1000000 frames",
          frames_count);
@@ -78,6 +99,10 @@ void SimulateStreetOptions::validate() const {
     expect(std::abs(angle) <= 5, "--right-rotation", "angles from -5 to 5 degrees", angle);
   expect(std::abs(baseline_error_percent) <= 20, "--baseline-error", "an error from -20 to 20 %",
          baseline_error_percent);
+  expect(route == StreetRoute::block || loops == 0, "--loops", "0 on a straight street", loops);
+  expect(route == StreetRoute::block || drive_length(*this) <= 1000, "--frames-count",
+         "at most 1000 m on a straight street", frames_count);
+  if (body_poses) body_poses->validate();
   expect(image_deviation >= 0, "image_deviation", "0 or more grey levels", image_deviation);
 }
 
@@ -93,6 +118,7 @@ Calibration SimulatedStreet::calibration() const {
   Calibration calibration;
   calibration.camera = options_.camera;
   calibration.baseline = options_.baseline;
+  if (options_.body_poses) calibration.body_from_camera = stated_body_from_camera();
   return calibration;
 }
 
@@ -105,9 +131,34 @@ std::int64_t SimulatedStreet::stamp_ns(int frame) const {
   return std::llround(frame * 1e9 / options_.rate_hz);
 }
 
-Rigid3 SimulatedStreet::street_from_camera(int frame) const {
-  const double share = static_cast<double>(frame) / size();  // of the drive
-  const double round = rounds_ * share;
+Rigid3 SimulatedStreet::stated_body_from_camera() {
+  return {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {1.4, 0.3, 0.7}};
+}
+
+std::vector<std::pair<std::int64_t, Rigid3>> SimulatedStreet::body_poses() const {
+  std::vector<std::pair<std::int64_t, Rigid3>> poses;
+  if (!options_.body_poses) return poses;
+  const SimulatedBodyPoses& errors = *options_.body_poses;
+  const Rigid3 stated = stated_body_from_camera();
+  const Rigid3 body_from_camera{
+      rotation_exp(errors.boresight_error_deg * kRadiansPerDegree) * stated.rotation,
+      stated.translation + errors.lever_arm_error};
+  const Rigid3 world_from_street = street_from_camera(0).inverse();
+  const double last = (size() - 1) / options_.rate_hz;  // seconds
+  for (int i = 0; i <= std::floor(last * errors.rate_hz); ++i) {
+    const double stamp = i / errors.rate_hz;
+    const Rigid3 camera =
+        world_from_street * street_from_camera((stamp + errors.time_offset_s) * options_.rate_hz);
+    poses.emplace_back(std::llround(stamp * 1e9), camera * body_from_camera.inverse());
+  }
+  return poses;
+}
+
+/// Returns the pose at a time in frames, which may lie between two of them.
+Rigid3 SimulatedStreet::street_from_camera(double frame) const {
+  const double share = frame / size();  // of the drive
+  const double start = options_.route == StreetRoute::straight ? path_.start_of_straight() : 0;
+  const double round = start + rounds_ * share;
   const StreetPath::PathPoint place = path_.at(round - std::floor(round));
   constexpr double kHeight = 1.65;
   const auto wave = [&](double periods_a_round, double phase) {

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "cairn/core/executor.h"
 #include "cairn/geometry/camera.h"
@@ -20,6 +23,25 @@ namespace cairn {
 
 /// Names the noise. camera: noisy images of varying gain. none: exact.
 enum class StreetNoise { camera, none };
+
+/// Names the way. block: around a block, along its corners. straight: along one straight street, at constant
+/// speed.
+enum class StreetRoute { block, straight };
+
+/// Describes the poses of the car's body (x forward, y left, z up) that are written beside the truth, and by
+/// how much what is stated of them is wrong.
+struct SimulatedBodyPoses {
+  double rate_hz = 100;      ///< poses a second
+  double time_offset_s = 0;  ///< has to be added to the written stamps to make them right; -10 to 10
+  /// Lever arm of the camera less the stated one, metres in the body's axes; each at most 10 in magnitude.
+  Eigen::Vector3d lever_arm_error = Eigen::Vector3d::Zero();
+  /// Rotation vector in the body's axes, degrees, by which the camera is turned out of the stated boresight:
+  /// true rotation = exp(this) * stated one; each at most 10 in magnitude.
+  Eigen::Vector3d boresight_error_deg = Eigen::Vector3d::Zero();
+
+  /// Throws InputError that names the option of the command line if a value is out of range.
+  void validate() const;
+};
 
 /// Sets the drive, the cameras and the noise.
 struct SimulateStreetOptions {
@@ -39,6 +61,8 @@ struct SimulateStreetOptions {
   /// Makes the true baseline (1 + this / 100) times the stated one; -20 to 20. Above 0 true disparities are
   /// larger than the calibration expects.
   double baseline_error_percent = 0;
+  StreetRoute route = StreetRoute::block;
+  std::optional<SimulatedBodyPoses> body_poses;  ///< nullopt: none
   StreetNoise noise = StreetNoise::camera;
   /// Standard deviation of the image noise, grey levels; none with StreetNoise::none.
   float image_deviation = 2;
@@ -73,11 +97,16 @@ class SimulatedStreet {
   /// Returns the pose of the left camera.
   [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
+  /// Returns the stated pose of the camera on the body, whose axes are x forward, y left, z up.
+  [[nodiscard]] static Rigid3 stated_body_from_camera();
+  /// Returns world_from_body with the stamps and errors of SimulateStreetOptions::body_poses, from stamp 0 to
+  /// that of the last frame; empty without these.
+  [[nodiscard]] std::vector<std::pair<std::int64_t, Rigid3>> body_poses() const;
   /// Renders a frame. Safe to call from several threads.
   [[nodiscard]] SimulatedStereoFrame render(int frame) const;
 
  private:
-  [[nodiscard]] Rigid3 street_from_camera(int frame) const;
+  [[nodiscard]] Rigid3 street_from_camera(double frame) const;
 
   SimulateStreetOptions options_;
   double rounds_;  // driven in all

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
+
+#include "cairn/core/error.h"
 
 namespace cairn {
 namespace {
@@ -225,6 +229,62 @@ TEST(simulated_street, errors_out_of_range_are_named) {
       "--right-rotation: expected angles from -5 to 5 degrees, found nan.\n  Choose another value.");
   expect_refused(longer,
                  "--baseline-error: expected an error from -20 to 20 %, found 21.\n  Choose another value.");
+}
+
+TEST(simulated_street, a_straight_one_is_driven_straight_at_constant_speed) {
+  SimulateStreetOptions options = small_street(StreetNoise::none);
+  options.frames_count = 40;
+  options.route = StreetRoute::straight;
+  const Trajectory truth = SimulatedStreet(options).truth();
+  const double first =
+      (truth[1].world_from_camera.translation - truth[0].world_from_camera.translation).norm();
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const Rigid3 step = truth[i - 1].world_from_camera.inverse() * truth[i].world_from_camera;
+    EXPECT_NEAR(step.translation.norm(), first, 0.003) << i;  // the springs
+    EXPECT_LT(rotation_angle(truth[i].world_from_camera.rotation), 0.025) << i;
+  }
+  EXPECT_GT(first, 0.7);
+}
+
+/// Returns the poses of a body whose camera was planted with errors.
+std::vector<std::pair<std::int64_t, Rigid3>> poses_with(const SimulatedBodyPoses& errors) {
+  SimulateStreetOptions options = small_street(StreetNoise::none);
+  options.frames_count = 20;
+  options.body_poses = errors;
+  return SimulatedStreet(options).body_poses();
+}
+
+TEST(simulated_street, poses_of_the_body_carry_the_camera_with_its_planted_errors) {
+  SimulateStreetOptions options = small_street(StreetNoise::none);
+  options.frames_count = 20;
+  SimulatedBodyPoses errors;
+  errors.time_offset_s = 0.2;
+  errors.lever_arm_error = {0.1, 0, -0.3};
+  errors.boresight_error_deg = {0, 0, 9};
+  const SimulatedStreet street(options);
+  const auto poses = poses_with(errors);
+  ASSERT_EQ(poses.size(), 191U);  // 100 a second for 1.9 s
+  const Rigid3 stated = SimulatedStreet::stated_body_from_camera();
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi / 20, Eigen::Vector3d::UnitZ()));
+  const Rigid3 body_from_camera{turn * stated.rotation, stated.translation + errors.lever_arm_error};
+  EXPECT_EQ(poses[30].first, 300'000'000);
+  const Rigid3 camera = poses[30].second * body_from_camera;  // 0.2 s later than its stamp says: frame 5
+  EXPECT_LT(motion_norm(camera.inverse() * street.world_from_camera(5)), 1e-9);
+}
+
+TEST(simulated_street, without_poses_of_the_body_nothing_is_stated_of_it) {
+  const SimulatedStreet street(small_street(StreetNoise::none));
+  EXPECT_TRUE(street.body_poses().empty());
+  EXPECT_FALSE(street.calibration().body_from_camera);
+}
+
+TEST(simulated_street, poses_of_the_body_out_of_range_are_refused) {
+  SimulatedBodyPoses far, turned, late;
+  far.lever_arm_error.y() = 10.5;
+  turned.boresight_error_deg.z() = std::numeric_limits<double>::quiet_NaN();
+  late.time_offset_s = -11;
+  for (const SimulatedBodyPoses& errors : {far, turned, late})
+    EXPECT_THROW((void)poses_with(errors), InputError);
 }
 
 }  // namespace

@@ -43,6 +43,19 @@ std::string format_calib(const Calibration& calibration) {
          format_projection("P1", calibration.camera, *calibration.baseline);
 }
 
+/// Formats poses of a body as EuRoC has them, whose names of columns say that they are a body's.
+std::string format_body_poses(const SimulatedStreet& street) {
+  std::string text =
+      "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []\n";
+  for (const auto& [stamp_ns, pose] : street.body_poses()) {
+    const auto& t = pose.translation;
+    const auto& q = pose.rotation;
+    text += fmt::format("{},{:.9f},{:.9f},{:.9f},{:.12f},{:.12f},{:.12f},{:.12f}\n", stamp_ns, t.x(), t.y(),
+                        t.z(), q.w(), q.x(), q.y(), q.z());
+  }
+  return text;
+}
+
 /// Writes left and right image of frame i; the paths written.
 std::vector<fs::path> write_pair(const fs::path& folder, int i, const GrayImage& left,
                                  const GrayImage& right) {
@@ -79,6 +92,17 @@ void expect_stereo(const Sequence& sequence) {
                     "Name a stereo sequence, or give --camera FILE (README, \"Calibration\")."});
 }
 
+/// Writes a camera.yaml that states the field of disparities, which the images of a corrected pair still
+/// have: FrameLoader takes off only the rows.
+void write_remaining_correction(const Calibration& recorded, const fs::path& folder) {
+  if (!recorded.right_correction || recorded.right_correction->disparity.isZero(0)) return;
+  Calibration rectified;
+  rectified.camera = recorded.camera;
+  rectified.baseline = recorded.baseline;
+  rectified.right_correction.emplace().disparity = recorded.right_correction->disparity;
+  write_file(folder / "camera.yaml", format_calibration(rectified));
+}
+
 }  // namespace
 
 SimulationReport write_kitti(const SimulatedStreet& street, const fs::path& folder, bool depth_truth,
@@ -102,6 +126,10 @@ SimulationReport write_kitti(const SimulatedStreet& street, const fs::path& fold
   write_file(folder / "calib.txt", format_calib(street.calibration()));
   write_file(folder / "times.txt", times);
   write_file(folder / "poses.txt", format_poses(truth));
+  if (street.calibration().body_from_camera) {
+    write_file(folder / "camera.yaml", format_calibration(street.calibration()));
+    write_file(folder / "body_poses.csv", format_body_poses(street));
+  }
   return report_on(whole, frames);
 }
 
@@ -134,6 +162,7 @@ RectifiedReport write_rectified(const Sequence& sequence, const fs::path& folder
   }
   report.has_poses = static_cast<int>(truth.size()) == report.frames;
   write_file(folder / "calib.txt", format_calib(sequence.calibration));
+  write_remaining_correction(sequence.calibration, folder);
   write_file(folder / "times.txt", times);
   if (report.has_poses) write_file(folder / "poses.txt", format_poses(truth));
   return report;

@@ -14,7 +14,8 @@ namespace cairn {
 // Throws InputError if the disk fails.
 
 /// Writes a simulated street. With `depth_truth`, also the left camera's true depth in a folder of that name,
-/// 16 bit, 256 units per metre, 0 if unknown.
+/// 16 bit, 256 units per metre, 0 if unknown. With poses of the body, also body_poses.csv in EuRoC's layout
+/// and a camera.yaml that states where the camera sits on the body.
 SimulationReport write_kitti(const SimulatedStreet& street, const std::filesystem::path& folder,
                              bool depth_truth, const Executor& executor, Progress& progress);
 
@@ -27,8 +28,8 @@ struct RectifiedReport {
 };
 
 /// Writes a stereo sequence as FrameLoader gives it, rectified and grey; poses.txt if every frame has a true
-/// pose. Leaves out pairs that cannot be read. Throws InputError if the sequence is not stereo or no pair can
-/// be read.
+/// pose; camera.yaml if the calibration corrects disparities, which the images do not show. Leaves out pairs
+/// that cannot be read. Throws InputError if the sequence is not stereo or no pair can be read.
 RectifiedReport write_rectified(const Sequence& sequence, const std::filesystem::path& folder,
                                 const Executor& executor, Progress& progress);
 
