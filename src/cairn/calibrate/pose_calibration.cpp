@@ -52,7 +52,7 @@ void fill_figures(const std::vector<Stretch>& stretches, PoseCalibration& found)
 
 /// Returns whether poses a little earlier and later are known at the ends of most stretches.
 bool can_be_shifted(const std::vector<Stretch>& stretches, const PosePath& path) {
-  constexpr double kShift = 0.02;  // seconds
+  constexpr double kShift = 0.03;  // seconds, as fit_poses does
   const auto is_known = [&](const Stretch& stretch) {
     return path.at(stretch.first_ns, kShift) && path.at(stretch.first_ns, -kShift) &&
            path.at(stretch.last_ns, kShift) && path.at(stretch.last_ns, -kShift);
