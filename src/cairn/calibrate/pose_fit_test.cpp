@@ -43,7 +43,7 @@ TEST(FitPoses, noise_of_the_given_poses_does_not_hide_the_time_offset) {
   for (int seed = 1; seed <= 5; ++seed) {
     BodyDrive drive;
     drive.planted = kPlanted;
-    drive.given_noise = 0.02;
+    drive.given_noise = 0.05;
     drive.seed = static_cast<std::uint64_t>(seed);
     EXPECT_NEAR(fit(drive).value[time_term], kPlanted[time_term], 0.003) << seed;
   }
