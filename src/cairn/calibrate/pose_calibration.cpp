@@ -139,6 +139,7 @@ Rigid3 PoseCalibration::corrected(const Rigid3& subject_from_camera) const {
 PoseCalibration calibrate_poses(const Trajectory& visual, const GivenPath& given,
                                 const PoseCalibrationOptions& options) {
   constexpr int kFewestStretches = 6;
+  constexpr double kUnknownSeconds = 0.1;  // the prior of a time offset that is not sought
   PoseCalibration found;
   const std::vector<Stretch> stretches = cut_stretches(visual);
   fill_figures(stretches, found);
@@ -149,6 +150,7 @@ PoseCalibration calibrate_poses(const Trajectory& visual, const GivenPath& given
   found.scatter = fit.scatter;
   found.value = fit.value;
   found.sigma = fit.covariance.diagonal().cwiseSqrt();
+  if (!problem.with_time) found.sigma[time_term] = kUnknownSeconds;
   if (fit.stretches < kFewestStretches) {
     mark_all_undetermined(fmt::format("the camera moves, with poses, in {} stretches of the recording only; "
                                       "{} are needed",
