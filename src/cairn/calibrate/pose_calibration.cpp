@@ -52,7 +52,7 @@ void fill_figures(const std::vector<Stretch>& stretches, PoseCalibration& found)
 
 /// Returns whether poses a little earlier and later are known at the ends of most stretches.
 bool can_be_shifted(const std::vector<Stretch>& stretches, const PosePath& path) {
-  constexpr double kShift = 0.02;  // seconds
+  constexpr double kShift = 0.03;  // seconds, as fit_poses does
   const auto is_known = [&](const Stretch& stretch) {
     return path.at(stretch.first_ns, kShift) && path.at(stretch.first_ns, -kShift) &&
            path.at(stretch.last_ns, kShift) && path.at(stretch.last_ns, -kShift);
@@ -139,6 +139,7 @@ Rigid3 PoseCalibration::corrected(const Rigid3& subject_from_camera) const {
 PoseCalibration calibrate_poses(const Trajectory& visual, const GivenPath& given,
                                 const PoseCalibrationOptions& options) {
   constexpr int kFewestStretches = 6;
+  constexpr double kUnknownSeconds = 0.1;  // the prior of a time offset that is not sought
   PoseCalibration found;
   const std::vector<Stretch> stretches = cut_stretches(visual);
   fill_figures(stretches, found);
@@ -149,6 +150,7 @@ PoseCalibration calibrate_poses(const Trajectory& visual, const GivenPath& given
   found.scatter = fit.scatter;
   found.value = fit.value;
   found.sigma = fit.covariance.diagonal().cwiseSqrt();
+  if (!problem.with_time) found.sigma[time_term] = kUnknownSeconds;
   if (fit.stretches < kFewestStretches) {
     mark_all_undetermined(fmt::format("the camera moves, with poses, in {} stretches of the recording only; "
                                       "{} are needed",

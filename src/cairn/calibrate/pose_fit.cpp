@@ -50,10 +50,10 @@ std::optional<Vector6d> residual_of(const PoseFitProblem& problem, const Stretch
   return residual;
 }
 
-/// Returns a stretch's equation, by central differences: the poses are known only at their stamps.
+/// Returns a stretch's equation, by central differences; over 0.06 s by the time, as poses are noisy.
 std::optional<Equation> equation_of(const PoseFitProblem& problem, const Stretch& stretch,
                                     const PoseTerms& terms) {
-  const PoseTerms step = (PoseTerms() << 1e-5, 1e-5, 1e-5, 1e-4, 1e-4, 1e-4, 1e-5, 5e-3).finished();
+  const PoseTerms step = (PoseTerms() << 1e-5, 1e-5, 1e-5, 1e-4, 1e-4, 1e-4, 1e-5, 0.03).finished();
   const auto residual = residual_of(problem, stretch, terms);
   if (!residual) return std::nullopt;
   Equation equation{*residual, Jacobian::Zero(), stretch.first_ns, stretch.last_ns};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "cairn/testing/calibrate/body_drive.h"
@@ -36,6 +37,16 @@ TEST(FitPoses, finds_a_large_time_offset) {
   BodyDrive drive;
   drive.planted[time_term] = -0.4;
   EXPECT_NEAR(fit(drive).value[time_term], -0.4, 1e-4);
+}
+
+TEST(FitPoses, noise_of_the_given_poses_does_not_hide_the_time_offset) {
+  for (int seed = 1; seed <= 5; ++seed) {
+    BodyDrive drive;
+    drive.planted = kPlanted;
+    drive.given_noise = 0.05;
+    drive.seed = static_cast<std::uint64_t>(seed);
+    EXPECT_NEAR(fit(drive).value[time_term], kPlanted[time_term], 0.003) << seed;
+  }
 }
 
 TEST(FitPoses, leaves_the_time_alone_where_it_is_not_sought) {

@@ -105,6 +105,8 @@ std::string format_calibration_text(const CalibrationSummary& summary) {
     text.add("poses        {} ({}), {} motions of {:.1f} s compared, {:.1f} m, {:.0f} deg\n",
              summary.given->source.string(), summary.given->format, result.poses->stretches,
              result.poses->stretch_s, result.poses->path_m, result.poses->turn_deg);
+  else if (summary.given)
+    text.add("poses        {} ({}), not compared\n", summary.given->source.string(), summary.given->format);
   else
     text.add("poses        none: baseline, time offset, boresight and lever arm need --poses\n");
   text.append(table_of(result.quantities));

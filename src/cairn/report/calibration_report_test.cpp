@@ -34,6 +34,19 @@ TEST(CalibrationReport, has_a_row_for_each_quantity_and_each_reason_once) {
             "written to   camera.yaml\n");
 }
 
+TEST(CalibrationReport, says_that_poses_were_not_compared_when_the_run_was_stopped) {
+  CalibrationResult result = result_with({kOff});
+  result.stopped = true;
+  std::optional<GivenPath> given(std::in_place);
+  given->source = "gnss.csv";
+  given->format = "table";
+  const std::string text = format_calibration_text({result, given, "camera.yaml"});
+  EXPECT_EQ(text.find("frames       12, 11 tracked, stopped before the end\n"
+                      "poses        gnss.csv (table), not compared\n"),
+            0U)
+      << text;
+}
+
 TEST(CalibrationReport, says_what_to_do_about_what_is_not_written) {
   CalibrationResult result = result_with({{"baseline factor", "", 1.005, 0.0004, Finding::off, "", false},
                                           {"time offset", "s", 0.02, 0.001, Finding::off, "", false}});

@@ -33,7 +33,10 @@ GivenPath BodyDrive::given() const {
   std::vector<SubjectPose> poses;
   for (int i = -100; i <= static_cast<int>(100 * duration_s) + 100; ++i) {
     const double stamp = 0.01 * i;
-    poses.push_back({std::llround(1e9 * stamp), body_at(*this, stamp + planted[time_term])});
+    Rigid3 pose = body_at(*this, stamp + planted[time_term]);
+    Random random(seed, static_cast<std::uint64_t>(10000 + i));  // other streams than those of the images
+    for (double& coordinate : pose.translation) coordinate += given_noise * random.normal();
+    poses.push_back({std::llround(1e9 * stamp), pose});
   }
   GivenPath path;
   path.path = PosePath(std::move(poses), 0.15);

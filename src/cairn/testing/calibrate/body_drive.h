@@ -16,6 +16,7 @@ struct BodyDrive {
   bool tilts = true;       ///< whether the body also rolls and pitches
   double angle_noise = 0;  ///< standard deviation of each frame's seen rotation, radians
   double place_noise = 0;  ///< and of its place, metres
+  double given_noise = 0;  ///< of the place of each given pose, metres
   double duration_s = 20;
   std::uint64_t seed = 1;
 
