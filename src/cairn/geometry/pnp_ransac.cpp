@@ -66,7 +66,8 @@ struct PnpProblem {
       inlier_points.push_back(points[i]);
       const Eigen::Vector3d point = pose.rotation * points[i] + pose.translation;
       const Observation pixel = without_disparity(seen[i]);
-      const double added = cairn::squared_error(rig, point, seen[i]) - cairn::squared_error(rig, point, pixel);
+      const double added =
+          cairn::squared_error(rig, point, seen[i]) - cairn::squared_error(rig, point, pixel);
       inlier_observations.push_back(added > kGrossLimit1 ? pixel : seen[i]);
     }
     const CameraFromWorld start({Eigen::Quaterniond(pose.rotation), pose.translation});

@@ -21,9 +21,10 @@ struct PnpResult : RansacReport {
 [[nodiscard]] PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                          std::span<const Observation> seen, const RansacOptions& options);
 
-/// Finds the observations that a given pose explains, of which a disparity may be wrong, and judges whether so many would agree by chance with
-/// some pose: the status is ok, by_chance, or too_few_data if there are fewer than three. Throws
-/// PreconditionError if the spans differ in length or a point or pixel is not finite.
+/// Finds the observations that a given pose explains, of which a disparity may be wrong, and judges whether
+/// so many would agree by chance with some pose: the status is ok, by_chance, or too_few_data if there are
+/// fewer than three. Throws PreconditionError if the spans differ in length or a point or pixel is not
+/// finite.
 [[nodiscard]] RansacReport judge_pose(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
                                       std::span<const Observation> seen,
                                       const CameraFromWorld& camera_from_world);

@@ -32,27 +32,29 @@ class DepthWindow {
     return depth_.contains(u_, v_) ? static_cast<double>(depth_(u_, v_)) : 0;
   }
 
-  /// Returns the largest difference to the middle's disparity, pixels.
-  [[nodiscard]] double largest_difference() const {
-    const float middle = focal_baseline_ / depth_(u_, v_);
-    float largest = 0;
+  /// Returns whether a disparity differs from the middle's by more than `limit_px`.
+  [[nodiscard]] bool differs_by_more_than(double limit_px) const {
+    const float middle = focal_baseline_ / depth_(u_, v_), limit = static_cast<float>(limit_px);
     for (int y = top_; y <= bottom_; ++y) {
       const float* row = depth_.row(y);
+      float largest = 0;
       for (int x = left_; x <= right_; ++x) {
         const float d = row[x] > 0 ? focal_baseline_ / row[x] : middle;
         largest = std::max(largest, std::abs(d - middle));
       }
+      if (largest > limit) return true;
     }
-    return static_cast<double>(largest);
+    return false;
   }
 
   /// Returns the standard deviation of a disparity, pixels, by the median second difference along the rows,
   /// which neither a slope nor one outline changes much; 0 if too few depths are known.
   [[nodiscard]] double scatter() const {
     std::vector<double> differences;
-    for (int y = top_; y <= bottom_; ++y) {
+    constexpr int kReach = 4;  // pixels: 63 second differences
+    for (int y = std::max(top_, v_ - kReach); y <= std::min(bottom_, v_ + kReach); ++y) {
       const float* row = depth_.row(y);
-      for (int x = left_ + 1; x < right_; ++x) {
+      for (int x = std::max(left_, u_ - kReach) + 1; x < std::min(right_, u_ + kReach); ++x) {
         if (!(row[x - 1] > 0 && row[x] > 0 && row[x + 1] > 0)) continue;
         const float second = 1 / row[x - 1] - 2 / row[x] + 1 / row[x + 1];
         differences.push_back(static_cast<double>(focal_baseline_ * std::abs(second)));
@@ -75,8 +77,9 @@ class DepthWindow {
 /// Kinect's, those that are stated, and those of the neighbourhood.
 bool jumps(const DepthWindow& window, const Rig& rig, const DepthNoise& noise) {
   const double sigma = std::max(kKinectNoise.sigma_px, noise.stated.at(rig, rig.disparity(window.depth())));
-  const double largest = window.largest_difference();
-  return largest > noise.jump_sigmas * sigma && largest > noise.jump_sigmas * window.scatter();
+  if (!window.differs_by_more_than(noise.jump_sigmas * sigma)) return false;
+  const double scatter = window.scatter();
+  return scatter <= sigma || window.differs_by_more_than(noise.jump_sigmas * scatter);
 }
 
 /// Returns the depth at the nearest pixel, metres; 0 if unknown, out of range, or at a jump of the depth: a

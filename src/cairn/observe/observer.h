@@ -16,7 +16,7 @@ namespace cairn {
 struct DepthNoise {
   double baseline = 0.075;  ///< virtual baseline, metres; that of the Kinect
   DisparityNoise stated;    ///< its sigma_px is 0 if the noise is to be estimated from the recording
-  double min_depth = 0.2;    ///< smallest depth, metres; nearer is noise
+  double min_depth = 0.2;   ///< smallest depth, metres; nearer is noise
   /// Distance of a feature from a jump of the depth below which it has no depth, pixels at the finest scale.
   double jump_radius = 3.0;
   double jump_sigmas = 8.0;  ///< change of disparity that is a jump, standard deviations

@@ -99,8 +99,8 @@ TEST(ObserveRgbd, depth_beside_a_jump_is_not_believed) {
   EXPECT_GT(beside, 3);
 }
 
-/// Returns a frame of a wall at 2 m whose left half, if there is a `jump`, is at 1 m; disparities have a noise
-/// of `sigma_px`.
+/// Returns a frame of a wall at 2 m whose left half, if there is a `jump`, is at 1 m; disparities have a
+/// noise of `sigma_px`.
 Frame noisy_frame(double sigma_px, bool jump) {
   const Rig rig = rig_of(calibration(), {});
   Random random(9);

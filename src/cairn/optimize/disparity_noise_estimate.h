@@ -22,8 +22,9 @@ struct DisparityNoiseEstimate {
 /// variance components models"). A residual e has the variance r sigma^2, with the redundancy r from the
 /// standard deviations that the observations state. Squares are cut off at 1.5 standard deviations, so that
 /// wrong disparities count little (Huber 1964, proposal 2). Cameras are taken as exact, and observations
-/// whose pixel does not fit do not count. Where points were adjusted with other standard deviations, as those of a
-/// map that was weighed since, the estimate is nearer to these; the next one mends that. Returns nullopt if fewer than 200 disparities have a redundancy.
+/// whose pixel does not fit do not count. Where points were adjusted with other standard deviations, as those
+/// of a map that was weighed since, the estimate is nearer to these; the next one mends that. Returns nullopt
+/// if fewer than 200 disparities have a redundancy.
 [[nodiscard]] std::optional<DisparityNoiseEstimate> estimate_disparity_noise(const BundleProblem& problem);
 
 /// Sets the standard deviations of a problem's disparities to those of `noise`.

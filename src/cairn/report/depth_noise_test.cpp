@@ -22,7 +22,9 @@ TEST(DepthNoiseReport, says_what_a_depth_is_good_to) {
 
 TEST(DepthNoiseReport, says_that_it_is_not_estimated) {
   const DisparityNoiseEstimate assumed{{1, 0}, kRig, 0};
-  EXPECT_EQ(describe(assumed), "depth        good to 25.0 mm at 1 m and 225 mm at 3 m, as stated, or assumed where too few show it");
+  EXPECT_EQ(
+      describe(assumed),
+      "depth        good to 25.0 mm at 1 m and 225 mm at 3 m, as stated, or assumed where too few show it");
 }
 
 TEST(DepthNoiseReport, is_silent_without_a_depth_camera) {

@@ -94,8 +94,8 @@ std::string format_pnp_text(const PnpReport& report, const PnpTextOptions& optio
            options.has_kernel ? ", with the kernel" : "");
   text.add("residual      {:.6g} px RMS\n", fit.rms_px);
   if (!report.ransac && fit.status == PoseStatus::ok)
-    text.add("agreement     {} of {} points in their pixels, within the 95 % limit of sigma\n", report.judged.inliers.size(),
-             report.points);
+    text.add("agreement     {} of {} points in their pixels, within the 95 % limit of sigma\n",
+             report.judged.inliers.size(), report.points);
   if (has_pose(report)) add_pose(fit, options.sigma_px, text);
   return text.take();
 }

@@ -22,8 +22,8 @@ namespace cairn {
                                                       const SurveyOptions& options, const Executor& executor);
 
 /// Estimates the noise of an RGB-D sequence's depth (estimate_disparity_noise) from the same stretches, with
-/// the given poses held, whose jitter is part of it. Returns nullopt if the options state it, for a stereo sequence, and if the stretches
-/// do not show it. Deterministic at any number of threads.
+/// the given poses held, whose jitter is part of it. Returns nullopt if the options state it, for a stereo
+/// sequence, and if the stretches do not show it. Deterministic at any number of threads.
 [[nodiscard]] std::optional<DisparityNoiseEstimate> depth_noise_by_poses(const Sequence& sequence,
                                                                          const GivenPoses& poses,
                                                                          const SurveyOptions& options,

@@ -76,7 +76,8 @@ TEST_F(CalibrateByPoses, gives_the_same_bits_at_any_number_of_threads) {
 /// Simulates a small room whose depth has `factor` times a Kinect's noise.
 class DepthNoiseByPoses : public testing::Test {
  protected:
-  [[nodiscard]] std::optional<DisparityNoiseEstimate> estimate(double factor, const SurveyOptions& options = {},
+  [[nodiscard]] std::optional<DisparityNoiseEstimate> estimate(double factor,
+                                                               const SurveyOptions& options = {},
                                                                int threads = 2) {
     SimulateRoomOptions room;
     room.frames_count = 24;
