@@ -23,6 +23,8 @@ CASES = [
          ("--right-rotation", "'5.5' is no number from -5 to 5")),
     Case("a rotation of no number", "simulate street -o out --right-rotation 0 nan 0", ("--right-rotation", "'nan' is no number")),
     Case("a rotation about two axes", "simulate street -o out --right-rotation 0 1", ("--right-rotation", "3 required")),
+    Case("depth noise below 0", "simulate room -o out --depth-noise -1", ("--depth-noise", "-1")),
+    Case("depth noise of no number", "simulate room -o out --depth-noise nan", ("--depth-noise", "nan")),
     Case("a rotation in a room", "simulate room -o out --right-rotation 0 1 0", ("--right-rotation",)),
     Case("a baseline far from the stated one", "simulate street -o out --baseline-error -21",
          ("--baseline-error", "'-21' is no number from -20 to 20")),

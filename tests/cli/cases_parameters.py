@@ -119,6 +119,9 @@ CASES = [
     # ranges
     no_sequence("range of the octree", "--set octree.resolution=0", ("octree.resolution: expected metres above 0, up to 1000, found 0",)),
     no_sequence("range of the cloud", "--set voxel_grid=0", ("voxel_grid: expected metres above 0, found 0.\n  0.01 suits a room",)),
+    no_sequence("part of a noise that is estimated", "--set depth.sigma_m=0.01",
+                ("depth.sigma_m: expected 0 unless depth.sigma_disparity_px is above 0, found 0.01",)),
+    no_sequence("noise below 0", "--set depth.sigma_disparity_px=-1", ("depth.sigma_disparity_px: expected pixels from 0, found -1",)),
     no_sequence("range over two parameters", "--set depth.min=3 --set depth.max=2", ("depth.max: expected metres above depth.min, found 2",)),
     no_sequence("documented switch", "--set stereo.search_images=maybe", ("expected yes or no for 'stereo.search_images', found 'maybe'",)),
     no_sequence("one of three words", "--set stereo.self_calibration=maybe", ("stereo.self_calibration: expected auto, report or off, found maybe.",)),
