@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -77,6 +78,17 @@ std::optional<GivenPath> read_poses(const Sequence& sequence, const PoseArgument
   return given;
 }
 
+/// Warns of poses that determine nothing, though there may be another answer.
+void warn_of_poses(const CalibrationResult& result, const std::optional<GivenPath>& given) {
+  if (!given || !result.poses) return;
+  const auto& findings = result.poses->findings;
+  const bool says_nothing = std::all_of(findings.begin(), findings.end(),
+                                        [](Finding finding) { return finding == Finding::undetermined; });
+  if (says_nothing)
+    fmt::print(stderr, "cairn calibrate: the poses of {} determine nothing: {}\n", given->source.string(),
+               result.poses->why[0]);
+}
+
 int report_no_answer() {
   fmt::print(stderr, "cairn calibrate: the recording determines nothing; nothing was written.\n");
   return 1;
@@ -104,6 +116,7 @@ int run_calibrate(int argc, char** argv) {
   const Executor executor(arguments.common.thread_count());
   const CalibrationResult result =
       calibrate(sequence, given, {parameters.slam, arguments.apply_baseline}, executor, *progress);
+  warn_of_poses(result, given);
   const bool has_answer = result.has_answer();
   require_new(arguments.output);
   if (has_answer) write_file(arguments.output, format_calibration(result.calibration));

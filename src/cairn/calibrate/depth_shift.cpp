@@ -284,9 +284,10 @@ void judge(DepthShift& found) {
     const double size = std::abs(found.value[i]);
     if (!(found.sigma[i] <= largest_sigma[i])) {
       found.findings[k] = Finding::undetermined;
-      found.why[k] =
-          fmt::format("known to {:.3g} only, and {:g} is needed: depth slopes or the camera moves too little",
-                      found.sigma[i], largest_sigma[i]);
+      found.why[k] = fmt::format(
+          "known to {0:.3g} {2} only, and {1:g} {2} is needed: too few surfaces slope, or the camera "
+          "moves too little",
+          found.sigma[i], largest_sigma[i], i < 2 ? "px" : "s");
     } else {
       found.findings[k] =
           size > kSigmas * found.sigma[i] && size > least[i] ? Finding::off : Finding::as_stated;

@@ -14,6 +14,7 @@ struct DisparityNoiseEstimate {
   DisparityNoise noise;
   Rig rig;                       ///< that the disparities are of
   std::int64_t disparities = 0;  ///< disparities that it was estimated from; 0: it is stated or assumed
+  bool is_assumed = false;       ///< neither estimated nor stated
 };
 
 /// Estimates the noise of the disparities of an adjusted problem from their residuals against the points,

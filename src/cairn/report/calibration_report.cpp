@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/report/calibration_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -15,14 +16,18 @@ namespace {
 
 std::string finding_words(const Quantity& quantity) {
   const std::string words = to_string(quantity.finding);
-  return quantity.is_written ? words + ", corrected" : words;
+  if (quantity.finding != Finding::off) return words;
+  return words + (quantity.is_written ? ", corrected" : ", not corrected");
 }
 
 std::string table_of(const std::vector<Quantity>& quantities) {
   std::vector<TableRow> rows{{"quantity", "found", "std", "unit", "finding"}};
+  const auto number = [](const Quantity& quantity, double value) {
+    return quantity.finding == Finding::undetermined ? std::string("-") : fmt::format("{:.4f}", value);
+  };
   for (const Quantity& quantity : quantities)
-    rows.push_back({quantity.name, fmt::format("{:.4f}", quantity.value),
-                    fmt::format("{:.4f}", quantity.sigma), quantity.unit, finding_words(quantity)});
+    rows.push_back({quantity.name, number(quantity, quantity.value), number(quantity, quantity.sigma),
+                    quantity.unit, finding_words(quantity)});
   return format_table(rows);
 }
 
@@ -52,11 +57,10 @@ void add_advice(const CalibrationSummary& summary, TextBuilder& text) {
   if (!poses || !summary.given) return;
   const double offset = summary.given->time_offset_s + poses->value[time_term];
   if (poses->is_off(time_term) && summary.given->is_by_frame)
-    text.add(
-        "time offset: the poses belong to frames by their order; give them with stamps, {:.4f} s later\n",
-        offset);
+    text.add("time offset: the poses belong to frames by their order; give them with stamps, {:.4f} s {}\n",
+             std::abs(offset), offset < 0 ? "earlier" : "later");
   else if (poses->is_off(time_term))
-    text.add("time offset: give --pose-offset {:.4f} wherever these poses are read\n", offset);
+    text.add("time offset: give --pose-offset {:.4f} to the commands that read --poses\n", offset);
   const bool has_factor = poses->is_off(scale_term) && !summary.result.quantities.empty();
   for (const Quantity& quantity : summary.result.quantities)
     if (has_factor && quantity.name.ends_with(" factor") && !quantity.is_written)
@@ -109,11 +113,18 @@ std::string format_calibration_text(const CalibrationSummary& summary) {
     text.add("poses        {} ({}), not compared\n", summary.given->source.string(), summary.given->format);
   else
     text.add("poses        none: baseline, time offset, boresight and lever arm need --poses\n");
+  const std::string pair =
+      describe(StereoCalibrationFigures{result.rows, result.rows_applied, result.disparities});
+  if (!pair.empty()) text.add("{}\n", pair);
   text.append(table_of(result.quantities));
   add_reasons(result.quantities, text);
   add_delay_advice(result.quantities, text);
   add_advice(summary, text);
-  if (!summary.output.empty()) text.add("written to   {}\n", summary.output);
+  const bool is_corrected = std::any_of(result.quantities.begin(), result.quantities.end(),
+                                        [](const Quantity& quantity) { return quantity.is_written; });
+  if (!summary.output.empty())
+    text.add("written to   {}{}\n", summary.output,
+             is_corrected ? "" : "; nothing was corrected, it is the calibration as stated");
   return text.take();
 }
 

@@ -28,8 +28,8 @@ TEST(CalibrationReport, has_a_row_for_each_quantity_and_each_reason_once) {
             "poses        none: baseline, time offset, boresight and lever arm need --poses\n"
             "quantity      found     std  unit         finding\n"
             "boresight x  0.2000  0.0100   deg  off, corrected\n"
-            "lever arm y  0.1000  0.9000     m    undetermined\n"
-            "lever arm z  0.1000  0.9000     m    undetermined\n"
+            "lever arm y       -       -     m    undetermined\n"
+            "lever arm z       -       -     m    undetermined\n"
             "lever arm y, lever arm z: undetermined: too level\n"
             "written to   camera.yaml\n");
 }
@@ -56,11 +56,18 @@ TEST(CalibrationReport, says_what_to_do_about_what_is_not_written) {
   std::optional<GivenPath> given(std::in_place);
   given->time_offset_s = 1;
   const std::string text = format_calibration_text({result, given, "camera.yaml"});
-  EXPECT_NE(text.find("give --pose-offset 1.0200 wherever"), std::string::npos) << text;
+  EXPECT_NE(text.find("give --pose-offset 1.0200 to the commands"), std::string::npos) << text;
   EXPECT_NE(text.find("baseline factor: corrected only with --apply-baseline"), std::string::npos) << text;
   given->is_by_frame = true;
   EXPECT_NE(format_calibration_text({result, given, ""}).find("give them with stamps, 1.0200 s later"),
             std::string::npos);
+}
+
+TEST(CalibrationReport, says_that_nothing_was_corrected) {
+  const CalibrationResult result = result_with({{"time offset", "s", 0.02, 0.001, Finding::off, "", false}});
+  const std::string text = format_calibration_text({result, std::nullopt, "camera.yaml"});
+  EXPECT_NE(text.find("off, not corrected"), std::string::npos) << text;
+  EXPECT_NE(text.find("written to   camera.yaml; nothing was corrected"), std::string::npos) << text;
 }
 
 TEST(CalibrationReport, json_has_every_quantity) {

@@ -26,10 +26,12 @@ std::string describe(const std::optional<DisparityNoiseEstimate>& found) {
   constexpr double kMillimetres = 1000;
   const std::string source = found->disparities > 0
                                  ? fmt::format("estimated from {} readings", found->disparities)
-                                 : std::string("as stated, or assumed where too few show it");
-  return fmt::format("depth        good to {:.1f} mm at {:g} m and {:.0f} mm at {:g} m, {}",
-                     kMillimetres * found->noise.of_depth(found->rig, kNear), kNear,
-                     kMillimetres * found->noise.of_depth(found->rig, kFar), kFar, source);
+                             : found->is_assumed ? std::string("assumed, as too few readings show it")
+                                                 : std::string("as stated");
+  return fmt::format(
+      "depth        good to {:.1f} mm at {:g} m and {:.0f} mm at {:g} m (one standard deviation), {}",
+      kMillimetres * found->noise.of_depth(found->rig, kNear), kNear,
+      kMillimetres * found->noise.of_depth(found->rig, kFar), kFar, source);
 }
 
 }  // namespace cairn

@@ -13,7 +13,8 @@ const Rig kRig{500, 500, 320, 240, 0.08};
 TEST(DepthNoiseReport, says_what_a_depth_is_good_to) {
   const DisparityNoiseEstimate found{{0.1, 0.0015}, kRig, 2500};
   EXPECT_EQ(describe(found),
-            "depth        good to 2.9 mm at 1 m and 23 mm at 3 m, estimated from 2500 readings");
+            "depth        good to 2.9 mm at 1 m and 23 mm at 3 m (one standard deviation), estimated from "
+            "2500 readings");
   const Json json = to_json(std::optional(found));
   EXPECT_NEAR(json["sigma_at_1_m"].get<double>(), std::hypot(0.1 / 40, 0.0015), 1e-12);
   EXPECT_EQ(json["sigma_disparity_px"], 0.1);
@@ -21,10 +22,10 @@ TEST(DepthNoiseReport, says_what_a_depth_is_good_to) {
 }
 
 TEST(DepthNoiseReport, says_that_it_is_not_estimated) {
-  const DisparityNoiseEstimate assumed{{1, 0}, kRig, 0};
-  EXPECT_EQ(
-      describe(assumed),
-      "depth        good to 25.0 mm at 1 m and 225 mm at 3 m, as stated, or assumed where too few show it");
+  const DisparityNoiseEstimate stated{{1, 0}, kRig, 0}, assumed{{1, 0}, kRig, 0, true};
+  EXPECT_EQ(describe(stated),
+            "depth        good to 25.0 mm at 1 m and 225 mm at 3 m (one standard deviation), as stated");
+  EXPECT_NE(describe(assumed).find("assumed, as too few readings show it"), std::string::npos);
 }
 
 TEST(DepthNoiseReport, is_silent_without_a_depth_camera) {

@@ -39,7 +39,7 @@ const char* state_of(bool is_determined, bool applied) {
 }
 
 std::string describe_rows(const RowErrors& rows, bool aligned) {
-  if (rows.pairs == 0) return "rows not measured";
+  if (rows.pairs == 0) return "rows as stated";
   return fmt::format("rows off by {:.2f} px RMS, {}", rows.rms_px, state_of(rows.is_determined(), aligned));
 }
 

@@ -6,8 +6,10 @@
 namespace cairn {
 
 DepthNoiseEstimator::DepthNoiseEstimator(const Map& map, const DepthNoise& stated)
-    : is_estimated_(stated.is_estimated()), result_{stated.at_start(), map.rig(), 0} {
-  if (is_estimated_ && map.header().depth_noise) result_.noise = *map.header().depth_noise;
+    : is_estimated_(stated.is_estimated()), result_{stated.at_start(), map.rig(), 0, is_estimated_} {
+  if (!is_estimated_ || !map.header().depth_noise) return;
+  result_.noise = *map.header().depth_noise;
+  result_.is_assumed = false;
 }
 
 bool DepthNoiseEstimator::is_due(const Map& map) const {

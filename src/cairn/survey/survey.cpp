@@ -119,7 +119,7 @@ class SurveyPipeline {
     DepthNoise& noise = options_.observer.depth_noise;
     if (result_.pose_check.verdict != PoseVerdict::contradiction)
       result_.depth_noise = depth_noise_by_poses(sequence_, input_.poses, options_, executor_);
-    if (!result_.depth_noise) result_.depth_noise = {noise.at_start(), rig_, 0};
+    if (!result_.depth_noise) result_.depth_noise = {noise.at_start(), rig_, 0, noise.is_estimated()};
     noise.stated = result_.depth_noise->noise;
   }
 
