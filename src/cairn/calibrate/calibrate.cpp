@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "cairn/calibrate/depth_shift.h"
@@ -62,7 +63,11 @@ std::vector<Quantity> settle_depth(SettledRun& run, const SlamOptions& options, 
   const auto is_off = [&](std::size_t k) { return left.findings[k] == Finding::off; };
   std::array<bool, 2> was_off{};
   Eigen::Vector2d moved = Eigen::Vector2d::Zero();
-  for (int i = 1; i < kMostRuns && (is_off(0) || is_off(1)) && !run.slam.stopped; ++i) {
+  const auto is_left = [&](std::size_t k) {  // of a shift that is corrected, all that is seen of it
+    const auto at = static_cast<Eigen::Index>(k);
+    return is_off(k) || (was_off[k] && std::abs(left.value[at]) > left.sigma[at]);
+  };
+  for (int i = 1; i < kMostRuns && (is_left(0) || is_left(1)) && !run.slam.stopped; ++i) {
     Eigen::Vector2d step = Eigen::Vector2d::Zero();
     for (std::size_t k = 0; k < 2; ++k) {
       was_off[k] = was_off[k] || is_off(k);

@@ -111,7 +111,8 @@ class PoseSolver {
     const std::vector<Observation> used = seen_;
     forget_inliers();
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(given_.size()); ++i) {
-      const Agreement agreement = judge(i);
+      Agreement agreement = judge(i);
+      if (agreement == Agreement::pixel && !options_.keep_pixels) agreement = Agreement::none;
       if (agreement != Agreement::none) result_.inliers.push_back(i);
       if (agreement == Agreement::pixel) result_.wrong_disparities.push_back(i);
     }

@@ -44,6 +44,9 @@ struct PoseOptions {
   PoseMethod method = PoseMethod::levenberg_marquardt;
   RobustKernel kernel = RobustKernel::huber;
   double kernel_scale = kInlierScale2;  ///< standard deviations, above 0
+  /// Whether an observation whose pixel alone agrees is an inlier without its disparity; else it is an
+  /// outlier, as is better where many matches are wrong, which a wrong disparity shows.
+  bool keep_pixels = true;
   int rounds = 4;           ///< maximum number of rounds of selecting inliers and minimising; at least 1
   int max_iterations = 50;  ///< maximum number of iterations of a round; at least 1, and 4 to 10 are usual
   /// Length of a step that ends a round, radians and metres, above 0: far below what pixels determine.

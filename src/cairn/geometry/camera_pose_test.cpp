@@ -220,6 +220,10 @@ TEST(CameraPose, a_wrong_disparity_does_not_throw_its_pixel_away) {
   EXPECT_GT(found.inliers.size(), 190U);
   EXPECT_GT(found.wrong_disparities.size(), 70U);  // of 80
   for (const std::int32_t i : found.wrong_disparities) EXPECT_LT(i, 120);
+  const PoseEstimate strict = estimate_pose(kPoseRig, scene.correspondences(),
+                                            nudged(scene.camera_from_world, 0.05), {.keep_pixels = false});
+  EXPECT_LT(strict.inliers.size(), 130U);
+  EXPECT_TRUE(strict.wrong_disparities.empty());
   EXPECT_LT(error_of(found, scene).norm(), 5e-3);
 }
 

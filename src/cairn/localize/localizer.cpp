@@ -183,7 +183,8 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
   found.matches = match_predicted_landmarks(map_, keyframes, {camera_.rig, observed, first.camera_from_world},
                                             options_.radius_px);
   const MatchedPoints matched = points_of(found.matches);
-  const PoseEstimate pose = estimate_pose(camera_.rig, matched.correspondences(), first.camera_from_world);
+  const PoseEstimate pose =
+      estimate_pose(camera_.rig, matched.correspondences(), first.camera_from_world, {.keep_pixels = false});
   if (!pose.found()) return found;
   found.camera_from_world = pose.camera_from_world;
   found.inliers = pose.inliers;

@@ -76,7 +76,10 @@ ObserverOptions observer_options_for(const MapInfo& map, int features, double co
   options.features.count = features;
   options.features.contrast = contrast;
   options.depth_noise.baseline = map.rig.baseline;
-  options.depth_noise.stated = map.depth_noise.value_or(kKinectNoise);
+  // the noise that frames of one drive show lacks what they have in common
+  DisparityNoise& noise = options.depth_noise.stated;
+  noise = map.depth_noise.value_or(kKinectNoise);
+  noise.sigma_px = std::max(noise.sigma_px, kKinectNoise.sigma_px);
   return options;
 }
 

@@ -68,6 +68,8 @@ TEST(ObserverOptionsFor, takes_the_noise_that_the_map_states) {
   map.depth_noise = DisparityNoise{0.3, 0.002};
   EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_px, 0.3);
   EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_m, 0.002);
+  map.depth_noise = DisparityNoise{0.03, 0.002};  // smaller than is believed
+  EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_px, kKinectNoise.sigma_px);
   map.depth_noise.reset();
   EXPECT_EQ(observer_options_for(map, 100, 0.02).depth_noise.stated.sigma_px, kKinectNoise.sigma_px);
 }

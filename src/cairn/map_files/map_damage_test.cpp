@@ -108,6 +108,23 @@ void expect_refused(const std::vector<BadMap>& cases) {
   }
 }
 
+TEST(MapDamage, refuses_a_bad_correction_or_noise) {
+  expect_refused({
+      bad_info("a correction without rows", "\"rig\"",
+               "\"right_correction\": {\"disparities_px\": [0, 0, 0]}, \"rig\"",
+               "expected 'rows_px', found nothing of that name"),
+      bad_info("a correction of too few terms", "\"rig\"",
+               "\"right_correction\": {\"rows_px\": [1, 2, 3, 4, 5, 6], \"disparities_px\": [0, 0]}, \"rig\"",
+               "expected a list of 3 numbers for 'disparities_px', found [0,0]"),
+      bad_info(
+          "a noise of depth of 0", "\"rig\"",
+          "\"depth_noise\": {\"sigma_disparity_px\": 0, \"sigma_depth_m\": 0.01}, \"rig\"",
+          "expected a 'sigma_disparity_px' above 0 and a 'sigma_depth_m' of 0 or more, found 0 and 0.01"),
+      bad_info("half a noise of depth", "\"rig\"", "\"depth_noise\": {\"sigma_disparity_px\": 1}, \"rig\"",
+               "expected 'sigma_depth_m', found nothing of that name"),
+  });
+}
+
 TEST(MapDamage, refuses_a_bad_map_json) {
   expect_refused({
       bad_info("other format", "keyframe map", "shopping list",
@@ -123,18 +140,6 @@ TEST(MapDamage, refuses_a_bad_map_json) {
       bad_info("origin off the Earth", "\"rig\"",
                "\"origin\": {\"latitude_deg\": 91, \"longitude_deg\": 0, \"height_m\": 0}, \"rig\"",
                "expected a latitude within 90 degrees and a longitude within 180, found 91 and 0"),
-      bad_info("a correction without rows", "\"rig\"",
-               "\"right_correction\": {\"disparities_px\": [0, 0, 0]}, \"rig\"",
-               "expected 'rows_px', found nothing of that name"),
-      bad_info("a correction of too few terms", "\"rig\"",
-               "\"right_correction\": {\"rows_px\": [1, 2, 3, 4, 5, 6], \"disparities_px\": [0, 0]}, \"rig\"",
-               "expected a list of 3 numbers for 'disparities_px', found [0,0]"),
-      bad_info(
-          "a noise of depth of 0", "\"rig\"",
-          "\"depth_noise\": {\"sigma_disparity_px\": 0, \"sigma_depth_m\": 0.01}, \"rig\"",
-          "expected a 'sigma_disparity_px' above 0 and a 'sigma_depth_m' of 0 or more, found 0 and 0.01"),
-      bad_info("half a noise of depth", "\"rig\"", "\"depth_noise\": {\"sigma_disparity_px\": 1}, \"rig\"",
-               "expected 'sigma_depth_m', found nothing of that name"),
       bad_info("settings are no text", "\"settings\": \"\"", "\"settings\": 5", "a text for 'settings'"),
       bad_info("no rig", "\"rig\"", "\"ship\"", "expected 'rig', found nothing of that name"),
       bad_info("focal length 0", "\"fx\": 525", "\"fx\": 0",

@@ -62,9 +62,9 @@ TEST(PnpReport, traces_the_cost_if_asked) {
 TEST(PnpReport, tells_how_many_points_agree_if_there_was_no_ransac) {
   PnpReport report = found_pose();
   report.ransac.reset();
-  EXPECT_NE(
-      format_pnp_text(report, {}).find("\nagreement     5 of 6 points within the 95 % limit of sigma\n"),
-      std::string::npos);
+  EXPECT_NE(format_pnp_text(report, {})
+                .find("\nagreement     5 of 6 points in their pixels, within the 95 % limit of sigma\n"),
+            std::string::npos);
 }
 
 TEST(PnpReport, has_no_pose_if_it_failed) {
