@@ -124,11 +124,11 @@ DisparityNoise fit(const std::vector<Residual>& residuals) {
   for (const Residual& residual : residuals) mean_by_depth += residual.by_depth;
   mean_by_depth /= static_cast<double>(residuals.size());
   Eigen::Array2d variances(0.5 * first * first, 0.5 * first * first / mean_by_depth);
-  const Eigen::Array2d kLeastVariances(kLeastSigmaPx * kLeastSigmaPx, kLeastSigmaM * kLeastSigmaM);
+  const Eigen::Array2d least(kLeastSigmaPx * kLeastSigmaPx, kLeastSigmaM * kLeastSigmaM);
   constexpr int kMaxIterations = 100;
   constexpr double kConverged = 1e-3;  // relative
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Array2d next = improved(variances, residuals).max(kLeastVariances);
+    const Eigen::Array2d next = improved(variances, residuals).max(least);
     const double change = ((next - variances).abs() / variances).maxCoeff();
     variances = next;
     if (change < kConverged) break;
