@@ -15,9 +15,9 @@ namespace cairn {
 namespace {
 
 std::string finding_words(const Quantity& quantity) {
-  const std::string words = to_string(quantity.finding);
+  const char* const words = to_string(quantity.finding);
   if (quantity.finding != Finding::off) return words;
-  return words + (quantity.is_written ? ", corrected" : ", not corrected");
+  return fmt::format("{}, {}", words, quantity.is_written ? "corrected" : "not corrected");
 }
 
 std::string table_of(const std::vector<Quantity>& quantities) {
