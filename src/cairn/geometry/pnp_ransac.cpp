@@ -33,6 +33,7 @@ struct PnpProblem {
   const Rig& rig;
   std::span<const Eigen::Vector3d> points;
   std::span<const Observation> seen;
+  bool keep_pixels = true;
 
   [[nodiscard]] std::size_t size() const { return points.size(); }
 
@@ -52,7 +53,7 @@ struct PnpProblem {
   [[nodiscard]] double squared_error(const Model& pose, std::size_t i) const {
     const Eigen::Vector3d point = pose.rotation * points[i] + pose.translation;
     const double all = cairn::squared_error(rig, point, seen[i]);
-    if (!seen[i].has_disparity() || all <= kDisparityBound) return all;
+    if (!keep_pixels || !seen[i].has_disparity() || all <= kDisparityBound) return all;
     const double pixel = cairn::squared_error(rig, point, without_disparity(seen[i]));
     return std::min(all, pixel + kDisparityBound);
   }
@@ -68,7 +69,7 @@ struct PnpProblem {
       const Observation pixel = without_disparity(seen[i]);
       const double added =
           cairn::squared_error(rig, point, seen[i]) - cairn::squared_error(rig, point, pixel);
-      inlier_observations.push_back(added > kGrossLimit1 ? pixel : seen[i]);
+      inlier_observations.push_back(keep_pixels && added > kGrossLimit1 ? pixel : seen[i]);
     }
     const CameraFromWorld start({Eigen::Quaterniond(pose.rotation), pose.translation});
     constexpr int kIterations = 3;  // RANSAC asks again with the inliers of the result
@@ -106,8 +107,10 @@ PnpProblem problem_of(const Rig& rig, std::span<const Eigen::Vector3d> points_in
 }  // namespace
 
 PnpResult solve_pnp_ransac(const Rig& rig, std::span<const Eigen::Vector3d> points_in_world,
-                           std::span<const Observation> seen, const RansacOptions& options) {
-  const PnpProblem problem = problem_of(rig, points_in_world, seen);
+                           std::span<const Observation> seen, const RansacOptions& options,
+                           bool keep_pixels) {
+  PnpProblem problem = problem_of(rig, points_in_world, seen);
+  problem.keep_pixels = keep_pixels;
   const RansacResult<CameraPose> found = Ransac(problem, options).run();
   return {found, CameraFromWorld({Eigen::Quaterniond(found.model.rotation), found.model.translation})};
 }

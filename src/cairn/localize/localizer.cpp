@@ -56,7 +56,7 @@ PnpResult ransac(const Rig& rig, const std::vector<LandmarkMatch>& matches, Fram
   ransac.max_iterations = options.ransac_iterations;
   ransac.seed = options.seed;
   ransac.item = static_cast<std::uint64_t>(frame.value);
-  return solve_pnp_ransac(rig, points, seen, ransac);
+  return solve_pnp_ransac(rig, points, seen, ransac, false);
 }
 
 int count_cells(const Localization& found, const QueryCamera& camera) {
