@@ -138,11 +138,12 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   print_report(arguments, report, folder, fmt::format("cairn slam {} -o run", folder));
 }
 
+Eigen::Vector3d vector_of(const std::array<double, 3>& values) {
+  return {values[0], values[1], values[2]};
+}
+
 /// Returns the poses of the body that were asked for, by the flag or by one of their errors.
 std::optional<SimulatedBodyPoses> body_poses_of(const Arguments& arguments) {
-  const auto vector_of = [](const std::array<double, 3>& values) {
-    return Eigen::Vector3d(values[0], values[1], values[2]);
-  };
   SimulatedBodyPoses poses;
   poses.time_offset_s = arguments.pose_time_offset_s;
   poses.lever_arm_error = vector_of(arguments.lever_arm_error);
@@ -156,8 +157,7 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = StreetNoise::none;
-  const auto& [x, y, z] = arguments.right_rotation_deg;
-  options.right_rotation_deg = {x, y, z};
+  options.right_rotation_deg = vector_of(arguments.right_rotation_deg);
   options.body_poses = body_poses_of(arguments);
   if (arguments.route == "straight") options.route = StreetRoute::straight;
   options.validate();

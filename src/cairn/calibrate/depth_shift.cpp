@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -116,9 +115,9 @@ PixelMap place_by_pixels(const SlamResult& slam, const Executor& executor) {
     views.clear();
     for (const ObservationRef& ref : map[id].observations) {
       if (!result.camera_from_world[ref.keyframe.index()]) continue;
-      Observation seen = map[ref.keyframe].observed.observations[static_cast<std::size_t>(ref.feature)];
-      seen.d = std::numeric_limits<double>::quiet_NaN();
-      views.push_back({ref.keyframe.value, seen});
+      const auto& observations = map[ref.keyframe].observed.observations;
+      views.push_back(
+          {ref.keyframe.value, without_disparity(observations[static_cast<std::size_t>(ref.feature)])});
     }
     if (static_cast<int>(views.size()) < options.min_observations) continue;
     solver.fit(views, fit);
@@ -226,14 +225,14 @@ struct ShiftFit {
 
 ShiftFit fit_shift(std::span<const Reading> readings) {
   constexpr int kRounds = 20;
-  constexpr double kOfMedian = 1.4826, kTuning = 2.385;
+  constexpr double kTuning = 2.385;
   const Terms prior =
       (Terms() << 20, 20, 0.2, 0.1, 0.2).finished();  // standard deviations: px, s, 1/m, share
   ShiftFit fit;
   for (int round = 0; round < kRounds && !readings.empty(); ++round) {
     std::vector<double> sizes;
     for (const Reading& reading : readings) sizes.push_back(std::abs(error_left(reading, fit.value)));
-    fit.scale = kTuning * std::max(kOfMedian * median(std::move(sizes)), 1e-3);
+    fit.scale = kTuning * std::max(kSigmaPerMedian * median(std::move(sizes)), 1e-3);
     TermMatrix normal = prior.array().square().inverse().matrix().asDiagonal();
     Terms right = Terms::Zero();
     for (const Reading& reading : readings) {

@@ -34,7 +34,7 @@ struct DepthShift {
 /// (Cauchy's weights) over all observations; standard deviations with the readings of a keyframe taken as
 /// one cluster, or half of what both halves of the keyframes differ by if that is more. A term is
 /// undetermined if its standard deviation is above 0.5 px or 5 ms, and off if it is more than three of them
-/// and than 0.5 px or 3 ms. Poses that were made with shifted depths take up a part of the shift, so that
+/// and than 1 px or 3 ms. Poses that were made with shifted depths take up a part of the shift, so that
 /// less of it is found. Depth images that cannot be read are left out.
 [[nodiscard]] DepthShift measure_depth_shift(const Sequence& sequence, const SlamResult& slam,
                                              const Executor& executor);

@@ -79,14 +79,13 @@ std::vector<Equation> equations_of(const PoseFitProblem& problem, const PoseTerm
 /// Measures the robust standard deviations of the residuals about 0; `degrees` is the share of the residuals
 /// that the terms did not adapt to.
 Vector6d scatter_of(const std::vector<Equation>& equations, double degrees) {
-  constexpr double kOfMedian = 1.4826;                 // of a normal distribution
   constexpr double kLeastAngle = 1e-6, kLeast = 1e-5;  // radians, metres
   Vector6d scatter;
   for (Eigen::Index k = 0; k < 6; ++k) {
     std::vector<double> sizes;
     for (const Equation& equation : equations) sizes.push_back(std::abs(equation.residual[k]));
-    scatter[k] =
-        std::max(kOfMedian * median(std::move(sizes)) / std::sqrt(degrees), k < 3 ? kLeastAngle : kLeast);
+    scatter[k] = std::max(kSigmaPerMedian * median(std::move(sizes)) / std::sqrt(degrees),
+                          k < 3 ? kLeastAngle : kLeast);
   }
   return scatter;
 }
