@@ -26,6 +26,7 @@ struct MapArguments {
   SequenceArguments sequence;
   PoseArguments poses;
   std::string output, exported;
+  bool exact_poses = false;
 };
 
 void declare(CommandLine& app, MapArguments& arguments) {
@@ -37,6 +38,8 @@ void declare(CommandLine& app, MapArguments& arguments) {
       .type_name("FORMAT")
       .check(one_of_any_case({"colmap"}));
   add_pose_options(app, arguments.poses);
+  app.add_flag("--exact-poses", arguments.exact_poses,
+               "take the poses as they are, whatever the images say: pose_frames=0");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true});
   add_parameter_help(
@@ -52,6 +55,7 @@ MapParameters gather_parameters(const MapArguments& arguments) {
   MapParameters parameters;
   parameters.sequence = arguments.sequence.options();
   apply_settings(arguments.common, table_of(parameters));
+  if (arguments.exact_poses) parameters.survey.tracks.pose_frames = 0;
   parameters.survey.validate();
   return parameters;
 }

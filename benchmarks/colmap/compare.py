@@ -6,7 +6,7 @@
         [--matches WORK]
 
 Both get the same images, calibration, number of features and poses; COLMAP once the given ones, and once those to which
-`cairn map` smoothed them. The figures of all come from models in COLMAP's text form, by the same code (model.py): landmarks in
+`cairn map` adjusted them. The figures of all come from models in COLMAP's text form, by the same code (model.py): landmarks in
 three frames or more, a left and a right image of one time being one frame; frames that show one; and the median over
 the landmarks of the mean distance of pixel and projection in the left images. triangulate.py says how COLMAP is run."""
 

@@ -16,7 +16,7 @@ from inputs import file, kitti_sequence, trajectory_text, tum_sequence, without
 
 SEQ = tum_sequence()
 KITTI = kitti_sequence()
-SMALL = "--set window=6 --set smooth_frames=3 --set features=500"
+SMALL = "--set window=6 --set pose_frames=3 --set features=500"
 
 
 def cairn(place, *arguments):
@@ -96,7 +96,7 @@ def out_of_range(setting, says):
 
 CASES = [
     # the command line
-    Case("help", "map --help", code=0, prints=("Mapping with known poses", "MAP.unfinished", "smooth_frames", "clean.duplicate_sigmas")),
+    Case("help", "map --help", code=0, prints=("Mapping with known poses", "MAP.unfinished", "pose_frames", "clean.duplicate_sigmas")),
     Case("no arguments", "map", ("cairn map", "SEQ is required")),
     Case("no output", "map seq", ("--output is required",), (SEQ,)),
     Case("unknown option", "map seq -o map --sped 3", ("--sped",), (SEQ,)),
@@ -107,7 +107,7 @@ CASES = [
     Case("parameter that is no number", "map seq -o map --set window=many", ("window", "found 'many'"), (SEQ,)),
     Case("no such parameter file", "map seq -o map --config c.yaml", ("c.yaml: expected a readable file",), (SEQ,)),
     out_of_range("window=1", "window: expected at least 2 frames, found 1"),
-    out_of_range("smooth_frames=20", "smooth_frames: expected a number of frames from 0, less than the window, found 20"),
+    out_of_range("pose_frames=-1", "pose_frames: expected a number of frames from 0 (none), found -1"),
     out_of_range("max_frames=2", "max_frames: expected at least 3 frames, found 2"),
     out_of_range("epipolar_px=0", "epipolar_px: expected pixels above 0, found 0"),
     out_of_range("max_ratio=1.5", "max_ratio: expected a ratio from 0 (off) to 1, found 1.5"),

@@ -109,7 +109,7 @@ class TurnedCamera(program.Quality):
 class Receiver(program.Quality):
     """Maps from the poses of a receiver, with every kind of deviation."""
 
-    SMALL = ("--set", "window=6", "--set", "smooth_frames=3", "--set", "features=500", "--quiet")
+    SMALL = ("--set", "window=6", "--set", "pose_frames=3", "--set", "features=500", "--quiet")
     PLACE, ANGLES = (0.02, 0.03, 0.05), (0.03, 0.04, 0.1)
 
     def setUp(self):

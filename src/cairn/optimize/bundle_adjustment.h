@@ -21,6 +21,15 @@ struct BundleObservation {
   Observation seen;
 };
 
+/// States what is known of a camera's pose beside its observations: a Gaussian about `camera_from_world`.
+struct CameraPrior {
+  std::int32_t camera = 0;   ///< position in BundleProblem::camera_from_world
+  Rigid3 camera_from_world;  ///< mean
+  /// Inverse covariance of left_perturbation(mean, pose): rotation (radians), then translation (metres), in
+  /// the camera's axes. Symmetric and not negative.
+  Matrix6d information = Matrix6d::Zero();
+};
+
 /// Holds cameras, points and the observations that connect them.
 struct BundleProblem {
   Rig rig;
@@ -28,6 +37,7 @@ struct BundleProblem {
   std::vector<char> camera_fixed;  ///< one for each camera, 1 if its pose is kept
   std::vector<Eigen::Vector3d> points_in_world;
   std::vector<BundleObservation> observations;  ///< in any order; a camera sees a point at most once
+  std::vector<CameraPrior> priors = {};         ///< in any order; one for a camera at most
 };
 
 /// Sets the kernel and the convergence of adjust_bundle.
@@ -65,11 +75,12 @@ struct BundleReport {
 
 /// Moves the free cameras T_i = camera_from_world and all points X_j to the minimum of
 ///
-///     1/2 sum_ij rho(|S_ij (pi(T_i X_j) - z_ij)|^2)
+///     1/2 sum_ij rho(|S_ij (pi(T_i X_j) - z_ij)|^2) + 1/2 sum_k e_k^T P_k e_k
 ///
-/// over the observations z = (u, v, d), S their inverse standard deviations: Levenberg-Marquardt over the
-/// equations of the cameras alone, from which the points are eliminated (Schur complement; Brown 1958;
-/// Triggs, McLauchlan, Hartley, Fitzgibbon 2000, sec. 6.1). Cameras are perturbed by perturb_left.
+/// over the observations z = (u, v, d), S their inverse standard deviations, and the priors of free cameras,
+/// P their information, e = left_perturbation(mean, T): Levenberg-Marquardt over the equations of the cameras
+/// alone, from which the points are eliminated (Schur complement; Brown 1958; Triggs, McLauchlan, Hartley,
+/// Fitzgibbon 2000, sec. 6.1). Cameras are perturbed by perturb_left.
 ///
 /// Some observations do not influence the result and keep their last cost (zero from the start) for the rest
 /// of the call: those behind their camera at the start or after a step, and those of a point that its
@@ -78,8 +89,8 @@ struct BundleReport {
 /// the start and the damping.
 ///
 /// Throws PreconditionError if a position is out of range, an observation is unusable, a value is not finite,
-/// focal lengths or baseline are not above 0, or a camera sees a point twice. Gives the same bits at any
-/// number of threads.
+/// focal lengths or baseline are not above 0, a camera sees a point twice or has two priors. Gives the same
+/// bits at any number of threads.
 [[nodiscard]] BundleReport adjust_bundle(BundleProblem& problem, const BundleOptions& options,
                                          const Executor& executor = Executor());
 

@@ -181,7 +181,7 @@ TEST(BundleAdjustment, repeats_its_bits_at_any_number_of_threads_and_order_of_ob
 
 TEST(BundleAdjustment, takes_a_landmark_with_one_observation_by_its_disparity) {
   BundleScene scene = make_bundle_scene(8, {.noise = 0});
-  auto& [rig, cameras, fixed, points, observations] = scene.problem;
+  auto& [rig, cameras, fixed, points, observations, priors] = scene.problem;
   const Eigen::Vector3d stereo(0.3, 0.1, 4), mono(-0.4, 0.2, 5);
   points.push_back(cameras[0].inverse() * Eigen::Vector3d(0.4, 0.1, 4.5));
   points.push_back(cameras[5].inverse() * Eigen::Vector3d(-0.4, 0.3, 5));
@@ -237,6 +237,38 @@ TEST(BundleAdjustment, stays_finite_from_a_start_that_is_far_off) {
       EXPECT_TRUE(pose.rotation.coeffs().allFinite() && pose.translation.allFinite()) << seed;
     for (const auto& point : scene.problem.points_in_world) EXPECT_TRUE(point.allFinite()) << seed;
   }
+}
+
+TEST(BundleAdjustment, weighs_priors_against_observations) {
+  BundleScene scene = make_bundle_scene(4, {});
+  const Rigid3 mean = perturb_left(Vector6d::Constant(0.01), scene.true_cameras[3]);
+  Matrix6d half = Matrix6d::Identity() * 300;
+  half(1, 4) = half(2, 0) = 100;
+  scene.problem.priors.push_back({3, mean, half * half.transpose()});
+  const auto distance_to_mean = [&] {
+    return left_perturbation(mean, scene.problem.camera_from_world[3]).norm();
+  };
+  const BundleReport report = adjust_bundle(scene.problem, precise());
+  EXPECT_GT(distance_to_mean(), 1e-4);
+  EXPECT_LT(distance_to_mean(), 0.02);
+  for (Eigen::Index i = 0; i < 6; ++i) {  // the result is a minimum
+    for (const double step : {-1e-4, 1e-4}) {
+      BundleProblem moved = scene.problem;
+      moved.camera_from_world[3] = perturb_left(step * Vector6d::Unit(i), moved.camera_from_world[3]);
+      EXPECT_GT(adjust_bundle(moved, precise()).cost_before, report.cost_after);
+    }
+  }
+  scene.problem.priors[0].information *= 1e8;
+  (void)adjust_bundle(scene.problem, precise());
+  EXPECT_LT(distance_to_mean(), 1e-6);
+}
+
+TEST(BundleAdjustment, refuses_two_priors_of_a_camera) {
+  BundleScene scene = make_bundle_scene(4, {});
+  scene.problem.priors.assign(2, {1, {}, {}});
+  EXPECT_THROW((void)adjust_bundle(scene.problem, {}), PreconditionError);
+  scene.problem.priors = {{99, {}, {}}};
+  EXPECT_THROW((void)adjust_bundle(scene.problem, {}), PreconditionError);
 }
 
 TEST(BundleAdjustment, says_when_there_is_nothing_to_do) {

@@ -37,7 +37,8 @@ BundleEquations::BundleEquations(const Rig& rig, const BundleStructure& structur
       active_(structure.terms.size(), 1),
       links_(structure.link_free.size()),
       link_blocks_(structure.link_free.size()),
-      factors_(structure.points.size()) {
+      factors_(structure.points.size()),
+      prior_errors_(structure.free_cameras.size(), Vector6d::Zero()) {
   find_pattern();
   solver_ = make_block_cholesky(reduced_, choose_method(reduced_));
 }
@@ -67,6 +68,8 @@ void BundleEquations::find_pattern() {
 }
 
 void BundleEquations::build(const BundleState& state, double lambda) {
+  for (std::size_t free = 0; free < prior_errors_.size(); ++free)
+    prior_errors_[free] = prior_error(free, state);
   executor_.for_each_chunk(structure_.points.size(), kPointGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t point = begin; point < end; ++point) build_point(point, state, lambda);
   });
@@ -195,6 +198,9 @@ void BundleEquations::build_column(std::size_t free, double lambda) {
       subtract_product(link_blocks_[other], own,
                        reduced_.blocks[static_cast<std::size_t>(block_of_row[structure_.link_free[other]])]);
   }
+  const CameraPrior& prior = structure_.prior_of_free[free];
+  hessian += prior.information;
+  gradient.noalias() += prior.information * prior_errors_[free];
   constexpr double kLeastDiagonal = 1e-6;  // so that a camera without observations stays
   hessian.diagonal() += lambda * hessian.diagonal().cwiseMax(kLeastDiagonal);
   reduced_.blocks[reduced_.begin[free]] += hessian;
@@ -275,8 +281,20 @@ void BundleEquations::evaluate_costs(BundleState& state) const {
   sum_costs(state);
 }
 
+/// Returns zero for a free camera without prior.
+Vector6d BundleEquations::prior_error(std::size_t free, const BundleState& state) const {
+  const CameraPrior& prior = structure_.prior_of_free[free];
+  if (prior.information.isZero(0)) return Vector6d::Zero();
+  const auto camera = static_cast<std::size_t>(structure_.free_cameras[free]);
+  return left_perturbation(prior.camera_from_world, state.camera_from_world[camera]);
+}
+
 void BundleEquations::sum_costs(BundleState& state) const {
   state.sum_costs();
+  for (std::size_t free = 0; free < structure_.prior_of_free.size(); ++free) {
+    const Vector6d error = prior_error(free, state);
+    state.cost += 0.5 * error.dot(structure_.prior_of_free[free].information * error);
+  }
   if (border_ != nullptr) state.cost += border_->prior_cost(state.field);
 }
 

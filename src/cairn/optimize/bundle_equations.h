@@ -102,6 +102,7 @@ class BundleEquations {
   [[nodiscard]] const BundleTerm& term_at(std::size_t t, const BundleState& state,
                                           BundleTerm& corrected) const;
   void sum_costs(BundleState& state) const;
+  [[nodiscard]] Vector6d prior_error(std::size_t free, const BundleState& state) const;
   [[nodiscard]] Eigen::Vector3d point_step(std::size_t point) const;
   void move_cameras(const BundleState& from, BundleState& to) const;
   void move_point(std::size_t point, const BundleState& from, BundleState& to) const;
@@ -116,6 +117,7 @@ class BundleEquations {
   std::vector<Link> links_;             // by link
   std::vector<LinkBlock> link_blocks_;  // Z, then Y
   std::vector<PointFactor> factors_;    // by point
+  std::vector<Vector6d> prior_errors_;  // by free camera
   BlockMatrix reduced_;                 // U - Y Y^T
   std::vector<std::int32_t> block_of_;  // its block at (row, column) for each row of each column
   std::unique_ptr<BlockCholesky> solver_;

@@ -63,6 +63,21 @@ std::vector<std::size_t> sort_observations(const BundleProblem& problem,
                  [&](std::size_t i) { return place_of[static_cast<std::size_t>(point_of(i))]; });
 }
 
+/// Returns the priors by rank of their camera; one without information where there is none.
+std::vector<CameraPrior> priors_by_rank(const BundleProblem& problem, const std::vector<std::int32_t>& ranks,
+                                        std::size_t free_count) {
+  std::vector<CameraPrior> priors(ranks.size());
+  std::vector<char> has_prior(ranks.size());
+  for (const CameraPrior& prior : problem.priors) {
+    const auto rank = static_cast<std::size_t>(ranks[static_cast<std::size_t>(prior.camera)]);
+    require(has_prior[rank] == 0, "a camera has one prior at most");
+    has_prior[rank] = 1;
+    priors[rank] = prior;
+  }
+  priors.resize(free_count);
+  return priors;
+}
+
 }  // namespace
 
 Groups group_items(std::span<const std::int32_t> group_of, std::size_t count) {
@@ -89,6 +104,10 @@ void require_bundle(const BundleProblem& problem) {
   require(std::all_of(problem.points_in_world.begin(), problem.points_in_world.end(),
                       [](const Eigen::Vector3d& point) { return point.allFinite(); }),
           "points are finite");
+  for (const CameraPrior& prior : problem.priors) {
+    require(prior.camera >= 0 && prior.camera < cameras, "a prior is of a camera");
+    require(is_finite(prior.camera_from_world) && prior.information.allFinite(), "a prior is finite");
+  }
   for (const BundleObservation& observation : problem.observations) {
     require(observation.camera >= 0 && observation.camera < cameras, "an observation is of a camera");
     require(observation.point >= 0 && observation.point < points, "an observation is of a point");
@@ -116,6 +135,7 @@ BundleStructure analyse_bundle(const BundleProblem& problem) {
   structure.term_begin.push_back(structure.terms.size());
   structure.link_begin.push_back(structure.link_free.size());
   structure.links_of_free = group_items(structure.link_free, free_count);
+  structure.prior_of_free = priors_by_rank(problem, ranks, free_count);
   return structure;
 }
 

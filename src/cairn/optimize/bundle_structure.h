@@ -36,6 +36,8 @@ struct BundleStructure {
   std::vector<std::int32_t> link_free;   ///< free camera of a link; increases within a point
   std::vector<std::int32_t> link_point;  ///< point of a link
   Groups links_of_free;                  ///< by free camera, increasing
+  /// One for each free camera; without information if the problem has none of it.
+  std::vector<CameraPrior> prior_of_free;
 
   /// Returns the number of the point's terms that are links; they come first.
   [[nodiscard]] std::size_t links(std::size_t point) const {

@@ -100,8 +100,8 @@ std::string format_survey_json(const SurveyResult& result, const SurveySummary& 
   json["threads"] = summary.threads;
   json["seconds"] = {{"total", summary.total_seconds}, {"decode", times.decode},
                      {"features", times.features},     {"matching", times.matching},
-                     {"adjustment", times.adjustment}, {"merging", times.merging},
-                     {"writing", times.writing}};
+                     {"poses", times.poses},           {"adjustment", times.adjustment},
+                     {"merging", times.merging},       {"writing", times.writing}};
   json["peak_memory_mb"] = summary.peak_memory_mb;
   return format_document(json);
 }
@@ -113,7 +113,7 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
   if (result.resumed_at > 0) text.add("resumed      at frame {} of the sequence\n", result.resumed_at);
   text.add("poses        {}", summary.poses_format);
   if (result.moved_rms_m > 0)
-    text.add(", smoothed by {:.1f} cm and {:.3f} degrees (RMS): what they jitter against the images",
+    text.add(", moved by {:.1f} cm and {:.3f} degrees (RMS) to agree with the images",
              100 * result.moved_rms_m, result.turned_rms_deg);
   if (result.pose_check.verdict == PoseVerdict::contradiction)
     text.add("\n             they contradict the images: {}", describe(result.pose_check));

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kKind{"CAIRNSVY", 2};
+constexpr BinaryKind kKind{"CAIRNSVY", 3};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
@@ -217,6 +217,8 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   state.next_frame.value = reader.get<std::int32_t>();
   state.next_landmark.value = reader.get<std::int32_t>();
   get(reader, state.tracks);
+  get(reader, state.finished);
+  state.first_open_pose.value = reader.get<std::int32_t>();
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
@@ -240,6 +242,8 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   writer.put(state.next_frame.value);
   writer.put(state.next_landmark.value);
   put(state.tracks, writer);
+  put(state.finished, writer);
+  writer.put(state.first_open_pose.value);
   put(state.pending, writer);
   put(state.variance.sums(), writer);
   SurveyCounts counts = state.counts;

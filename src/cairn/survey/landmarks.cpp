@@ -2,12 +2,10 @@
 #include "cairn/survey/landmarks.h"
 
 #include <Eigen/Geometry>
-#include <map>
 
 #include "cairn/geometry/covariance.h"
 #include "cairn/map_files/frame_file.h"
 #include "cairn/optimize/landmark_fit.h"
-#include "cairn/survey/pose_smoothing.h"
 
 namespace cairn {
 namespace {
@@ -35,36 +33,6 @@ SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
   landmark.indicators =
       indicators_of(rig, fit.point_in_world, views_of(frames, cameras, landmark.observations));
   return landmark;
-}
-
-/// Holds the tracks that have their camera poses in common.
-struct TrackGroup {
-  KeyframeId middle;
-  std::vector<std::size_t> tracks;
-};
-
-std::vector<TrackGroup> group_by_middle(std::span<const Track> tracks, int min_observations) {
-  std::map<KeyframeId, std::vector<std::size_t>> by_middle;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    if (static_cast<int>(tracks[i].observations.size()) >= min_observations)
-      by_middle[middle_of(tracks[i].observations)].push_back(i);
-  }
-  std::vector<TrackGroup> groups;
-  for (auto& [middle, members] : by_middle) groups.push_back({middle, std::move(members)});
-  return groups;
-}
-
-void fit_group(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
-               const TrackGroup& group, const SurveyOptions& options,
-               std::vector<std::optional<SurveyLandmark>>& fits) {
-  const auto cameras = cameras_around(frames, group.middle, options.tracks.smooth_frames);
-  LandmarkSolver solver(rig, cameras, options.fit);
-  LandmarkFit fit;
-  for (const std::size_t i : group.tracks) {
-    solver.fit(with_positions(frames, tracks[i].observations), fit);
-    if (fit.status == LandmarkFitStatus::ok)
-      fits[i] = make_landmark(rig, frames, cameras, tracks[i].observations, fit);
-  }
 }
 
 /// Computes the covariance of c + w x lever, with the errors (c, w) of a pose.
@@ -97,14 +65,10 @@ std::vector<PosedObservation> views_of(const FrameBuffer& frames, std::span<cons
   return views;
 }
 
-KeyframeId middle_of(std::span<const ObservationRef> observations) {
-  return observations[observations.size() / 2].keyframe;
-}
-
 std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,
                                                std::span<const ObservationRef> observations,
                                                const SurveyOptions& options) {
-  const auto cameras = cameras_around(frames, middle_of(observations), options.tracks.smooth_frames);
+  const auto cameras = frames.camera_poses();
   const LandmarkFit fit = fit_landmark(rig, cameras, with_positions(frames, observations), options.fit);
   if (fit.status != LandmarkFitStatus::ok) return std::nullopt;
   return make_landmark(rig, frames, cameras, observations, fit);
@@ -113,10 +77,18 @@ std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer
 AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::span<const Track> tracks,
                              const SurveyOptions& options, const Executor& executor) {
   AdjustedTracks adjusted;
-  const auto groups = group_by_middle(tracks, options.fit.min_observations);
+  const auto cameras = frames.camera_poses();
   std::vector<std::optional<SurveyLandmark>> fits(tracks.size());
-  executor.for_each(groups.size(),
-                    [&](std::size_t g) { fit_group(rig, frames, tracks, groups[g], options, fits); });
+  constexpr std::size_t kGrain = 64;  // tracks of a chunk: about a millisecond
+  executor.for_each_chunk(tracks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    LandmarkSolver solver(rig, cameras, options.fit);
+    LandmarkFit fit;
+    for (std::size_t i = begin; i < end; ++i) {
+      solver.fit(with_positions(frames, tracks[i].observations), fit);
+      if (fit.status == LandmarkFitStatus::ok)
+        fits[i] = make_landmark(rig, frames, cameras, tracks[i].observations, fit);
+    }
+  });
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     if (static_cast<int>(tracks[i].observations.size()) < options.fit.min_observations) {
       ++adjusted.too_short;

@@ -40,10 +40,6 @@ struct AdjustedTracks {
   std::int64_t dropped_observations = 0;  ///< observations of landmarks that do not agree with their points
 };
 
-/// Returns the frame around which the camera poses of a landmark are taken, see cameras_around: the middle
-/// one of the observations.
-[[nodiscard]] KeyframeId middle_of(std::span<const ObservationRef> observations);
-
 /// Fits a point to the observations, whose frames are in the buffer, see LandmarkSolver. Returns nullopt if
 /// too few agree.
 [[nodiscard]] std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,

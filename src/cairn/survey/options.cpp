@@ -14,9 +14,11 @@ void visit(TrackOptions& tracks, ParameterVisitor& visitor) {
       {"window", at_least(2, "frames"),
        "Frames for which a landmark may go unseen before it is finished. It bounds the memory."},
       tracks.window);
-  visitor.parameter({"smooth_frames", from(0, "a number of frames", "none"),
-                     "Frames on either side whose poses and motions smooth a pose; fewer than window."},
-                    tracks.smooth_frames);
+  visitor.parameter({"pose_frames", from(0, "a number of frames", "none"),
+                     "Frames whose poses are adjusted at a time, to given poses and images, and that an "
+                     "adjustment knows on either side of them.",
+                     "smooth_frames"},
+                    tracks.pose_frames);
   visitor.parameter(
       {"max_frames", at_least(3, "frames"), "Length at which a track is closed and a new one begins."},
       tracks.max_frames);
@@ -107,8 +109,6 @@ void visit(SurveyOptions& options, ParameterVisitor& visitor) {
 void SurveyOptions::validate() const {
   observer.validate();
   check_ranges(*this);
-  check_parameter(tracks.smooth_frames < tracks.window, "smooth_frames",
-                  "a number of frames from 0, less than the window", tracks.smooth_frames);
 }
 
 }  // namespace cairn

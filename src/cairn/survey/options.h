@@ -14,9 +14,9 @@ struct TrackOptions {
   /// Number of frames without a measured disparity after which a track is finished. It bounds the memory; few
   /// features come back later, and become two landmarks, which are merged.
   int window = 20;
-  /// Number of frames on either side whose poses and motions smooth a pose, see smoothed_pose; 0: poses stay
-  /// as given. Less than the window, so that a track's poses are smooth before it is adjusted.
-  int smooth_frames = 10;
+  /// Number of frames with which poses are adjusted at a time, and that an adjustment knows before and after
+  /// them, see adjust_poses; 0: poses stay as given.
+  int pose_frames = 20;
   /// Maximum length of a track, frames; at this length it is closed and a new one begins. Longer tracks add
   /// little accuracy, but keep frames in memory.
   int max_frames = 50;

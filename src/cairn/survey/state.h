@@ -19,6 +19,9 @@ struct SurveyState {
   LandmarkId next_landmark{0};
   FrameBuffer frames;         ///< the window, and frames that a track or a pending landmark was seen in
   std::vector<Track> tracks;  ///< tracks of the window
+  /// Tracks that are finished, but were seen in a frame from first_open_pose on.
+  std::vector<Track> finished;
+  KeyframeId first_open_pose{0};        ///< first frame whose pose may still change
   std::vector<SurveyLandmark> pending;  ///< cleaned landmarks that later ones may be merged with
   VarianceModel variance;
   SurveyCounts counts;

@@ -222,6 +222,7 @@ class SurveyPipeline {
     result_.stated = stated_deviations(input_.poses);
     result_.counts = state.counts;
     result_.times.matching = times.matching;
+    result_.times.poses = times.poses;
     result_.times.adjustment = times.adjustment;
     result_.times.merging = times.merging;
     result_.times.writing = times.writing;

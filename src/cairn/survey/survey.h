@@ -49,7 +49,7 @@ struct SurveyCounts {
 /// Holds the seconds spent in each stage. Decoding and features run beside the others, on all threads, and
 /// are summed over these.
 struct SurveyTimes {
-  double decode = 0, features = 0, matching = 0, adjustment = 0, merging = 0, writing = 0;
+  double decode = 0, features = 0, matching = 0, poses = 0, adjustment = 0, merging = 0, writing = 0;
 };
 
 /// Holds the medians over the frames of the standard deviations that their poses state, along the worst

@@ -120,10 +120,10 @@ struct Truth {
   double spread_m = 0;  ///< of these: a feature's centre wanders on the surface with the view
 };
 
-/// The stages of Surveyor, without its smoothing of poses, which are exact here.
+/// The stages of Surveyor, without its adjustment of poses, which are exact here.
 class StreetMapper {
  public:
-  explicit StreetMapper(double wrong_share) : wrong_share_(wrong_share) { options_.tracks.smooth_frames = 0; }
+  explicit StreetMapper(double wrong_share) : wrong_share_(wrong_share) { options_.tracks.pose_frames = 0; }
 
   std::vector<SurveyLandmark> map() {
     for (std::size_t i = 0; i < street().size(); ++i) add(i);

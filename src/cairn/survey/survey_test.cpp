@@ -88,7 +88,7 @@ TEST_F(SurveyTest, the_map_holds_together) {
             counts.too_short + counts.inconsistent + cleaned + counts.merged + counts.landmarks);
   EXPECT_GE(counts.features, counts.measured);
   EXPECT_GT(counts.matched, counts.observations / 2);
-  for (int i = 0; i < kStreetFrames; ++i) {  // exact poses: smoothing hardly moves them
+  for (int i = 0; i < kStreetFrames; ++i) {  // exact poses hardly move
     const Rigid3& given = poses_.frames[static_cast<std::size_t>(i)]->world_from_camera;
     EXPECT_LT((map.world_from_camera(KeyframeId{i}).translation - given.translation).norm(), 0.03);
   }
@@ -228,12 +228,12 @@ TEST_F(SurveyTest, one_camera_without_depth_is_refused) {
 }
 
 TEST_F(SurveyTest, options_out_of_range_are_named) {
-  options_.tracks.smooth_frames = options_.tracks.window;
+  options_.tracks.pose_frames = -1;
   try {
     (void)survey("map");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("smooth_frames"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("pose_frames"), std::string::npos) << error.what();
   }
 }
 

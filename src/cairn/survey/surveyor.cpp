@@ -6,7 +6,7 @@
 
 #include "cairn/core/stopwatch.h"
 #include "cairn/survey/duplicates.h"
-#include "cairn/survey/pose_smoothing.h"
+#include "cairn/survey/pose_adjustment.h"
 
 namespace cairn {
 namespace {
@@ -61,18 +61,21 @@ void Surveyor::add(const ObservedFrame& observed, const GivenPose& given, const 
   state_.counts.measured += count_measured(observed);
   state_.counts.matched += static_cast<std::int64_t>(matches.size());
   times_.matching += watch.lap();
-  smooth_behind(id);
-  adjust_finished_tracks(extract_finished(id, options_.tracks, state_.tracks), executor);
+  finish_tracks(id);
+  const int reach = options_.tracks.pose_frames;
+  if (id.value + 1 < state_.first_open_pose.value + 2 * reach) return;
+  settle_poses({id.value + 1 - reach}, executor);
+  adjust_settled_tracks(executor);
   // What a landmark may be merged with has left the window at most one window later.
-  write_landmarks({id.value - 2 * options_.tracks.window});
-  write_frames(std::min(first_open_frame(), {id.value - options_.tracks.window}));
+  const int settled = state_.first_open_pose.value, window = options_.tracks.window;
+  write_landmarks({settled - 2 * window});
+  write_frames(std::min(first_open_frame(), {settled - std::max(window, reach)}));
 }
 
 void Surveyor::finish(const Executor& executor) {
-  const int reach = std::min(options_.tracks.smooth_frames, state_.next_frame.value);
-  for (int k = reach; k > 0; --k) smooth({state_.next_frame.value - k});
-  const KeyframeId after_all{state_.next_frame.value + options_.tracks.window};
-  adjust_finished_tracks(extract_finished(after_all, options_.tracks, state_.tracks), executor);
+  finish_tracks({state_.next_frame.value + options_.tracks.window});
+  settle_poses(state_.next_frame, executor);
+  adjust_settled_tracks(executor);
   write_landmarks(state_.next_frame);
   write_frames(state_.next_frame);
 }
@@ -88,7 +91,7 @@ std::vector<TrackMatch> Surveyor::find_tracks(SurveyFrame& frame, const Executor
   frame.odometry = WorldFromCamera(
       previous.odometry * Rigid3(previous.given.world_from_camera.inverse() * frame.given.world_from_camera));
   auto matches = match();
-  if (options_.tracks.smooth_frames == 0) return matches;
+  if (options_.tracks.pose_frames == 0) return matches;
   frame.motion = measure_motion(rig_, state_.frames, state_.tracks, frame, matches);
   if (!frame.motion) return matches;
   frame.odometry = WorldFromCamera(previous.odometry * frame.motion->previous_from_this);
@@ -103,11 +106,43 @@ bool Surveyor::is_stationary(const ObservedFrame& observed, const GivenPose& giv
   return rotation_angle(moved.rotation) + (depth > 0 ? way / depth : way) < options_.tracks.min_view_change;
 }
 
-void Surveyor::adjust_finished_tracks(const std::vector<Track>& finished, const Executor& executor) {
+void Surveyor::finish_tracks(KeyframeId newest) {
+  auto finished = extract_finished(newest, options_.tracks, state_.tracks);
+  state_.counts.tracks += static_cast<std::int64_t>(finished.size());
+  std::move(finished.begin(), finished.end(), std::back_inserter(state_.finished));
+}
+
+/// Gives the frames before `first_open` their final poses.
+void Surveyor::settle_poses(KeyframeId first_open, const Executor& executor) {
   Stopwatch watch;
-  AdjustedTracks adjusted = adjust_tracks(rig_, state_.frames, finished, options_, executor);
+  std::vector<const Track*> tracks;
+  for (const auto* some : {&state_.finished, &state_.tracks})
+    for (const Track& track : *some) tracks.push_back(&track);
+  if (options_.tracks.pose_frames > 0)
+    adjust_poses(rig_, tracks, state_.first_open_pose, options_.tracks.pose_frames, executor, state_.frames);
+  for (; state_.first_open_pose < first_open; ++state_.first_open_pose.value)
+    count_moved(state_.first_open_pose);
+  times_.poses += watch.lap();
+}
+
+void Surveyor::count_moved(KeyframeId id) {
+  const SurveyFrame& frame = state_.frames[id];
+  const Rigid3 moved = frame.given.world_from_camera.inverse() * frame.world_from_camera;
+  const double angle = rotation_angle(moved.rotation);
+  state_.counts.moved_squared_m += moved.translation.squaredNorm();
+  state_.counts.turned_squared_rad += angle * angle;
+}
+
+/// Makes landmarks of the finished tracks whose frames have their final poses.
+void Surveyor::adjust_settled_tracks(const Executor& executor) {
+  Stopwatch watch;
+  const auto settled = std::stable_partition(
+      state_.finished.begin(), state_.finished.end(),
+      [&](const Track& track) { return track.observations.back().keyframe >= state_.first_open_pose; });
+  const std::span<const Track> tracks(settled, state_.finished.end());
+  AdjustedTracks adjusted = adjust_tracks(rig_, state_.frames, tracks, options_, executor);
+  state_.finished.erase(settled, state_.finished.end());
   SurveyCounts& counts = state_.counts;
-  counts.tracks += static_cast<std::int64_t>(finished.size());
   counts.too_short += adjusted.too_short;
   counts.inconsistent += adjusted.inconsistent;
   counts.dropped_observations += adjusted.dropped_observations;
@@ -131,24 +166,6 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
          : kept.push_back(std::move(landmark));
   }
   return kept;
-}
-
-/// Smooths the frame that has all its neighbours on both sides.
-void Surveyor::smooth_behind(KeyframeId newest) {
-  const int reach = options_.tracks.smooth_frames;
-  if (reach == 0 || newest.value < reach) return;
-  smooth({newest.value - reach});
-}
-
-/// Gives the frame its final pose.
-void Surveyor::smooth(KeyframeId id) {
-  SurveyFrame& frame = state_.frames[id];
-  frame.world_from_camera = smoothed_pose(state_.frames, id, options_.tracks.smooth_frames);
-  frame.camera_from_world = frame.world_from_camera.inverse();
-  const Rigid3 moved = frame.given.world_from_camera.inverse() * frame.world_from_camera;
-  const double angle = rotation_angle(moved.rotation);
-  state_.counts.moved_squared_m += moved.translation.squaredNorm();
-  state_.counts.turned_squared_rad += angle * angle;
 }
 
 /// Writes the landmarks whose last observation is in a frame before `seen_before`.
@@ -185,7 +202,8 @@ void Surveyor::write_frames(KeyframeId before) {
 /// Returns the first frame that is seen by a track or by a landmark that was not written yet.
 KeyframeId Surveyor::first_open_frame() const {
   KeyframeId first = state_.next_frame;
-  for (const Track& track : state_.tracks) first = std::min(first, track.observations.front().keyframe);
+  for (const auto* tracks : {&state_.finished, &state_.tracks})
+    for (const Track& track : *tracks) first = std::min(first, track.observations.front().keyframe);
   for (const SurveyLandmark& landmark : state_.pending)
     first = std::min(first, landmark.observations.front().keyframe);
   return first;

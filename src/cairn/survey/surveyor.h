@@ -24,9 +24,10 @@ class Surveyor {
  private:
   [[nodiscard]] bool is_stationary(const ObservedFrame& observed, const GivenPose& given) const;
   [[nodiscard]] std::vector<TrackMatch> find_tracks(SurveyFrame& frame, const Executor& executor) const;
-  void smooth_behind(KeyframeId newest);
-  void smooth(KeyframeId id);
-  void adjust_finished_tracks(const std::vector<Track>& finished, const Executor& executor);
+  void finish_tracks(KeyframeId newest);
+  void settle_poses(KeyframeId first_open, const Executor& executor);
+  void count_moved(KeyframeId id);
+  void adjust_settled_tracks(const Executor& executor);
   [[nodiscard]] std::vector<SurveyLandmark> clean(std::vector<SurveyLandmark>&& landmarks);
   void write_landmarks(KeyframeId seen_before);
   void write_frames(KeyframeId before);

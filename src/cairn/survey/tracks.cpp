@@ -118,8 +118,7 @@ std::vector<Track> extract_finished(KeyframeId newest, const TrackOptions& optio
       return newest.value - observation.keyframe.value;
     };
     const bool has_left = frames_since(track.measured) >= options.window;
-    const bool is_smooth = frames_since(track.observations.back()) >= options.smooth_frames;
-    return !(has_left || (is_full(track, newest, options) && is_smooth));
+    return !has_left && !is_full(track, newest, options);
   };
   const auto finished = std::stable_partition(tracks.begin(), tracks.end(), is_open);
   std::vector<Track> taken(std::make_move_iterator(finished), std::make_move_iterator(tracks.end()));

@@ -41,7 +41,7 @@ void drop_unused_features(SurveyFrame& frame, std::span<TrackMatch> matches);
 void extend_tracks(const SurveyFrame& frame, std::span<const TrackMatch> matches, std::vector<Track>& tracks);
 
 /// Removes and returns, in their order, the tracks that have left the window of frames that ends at `newest`,
-/// and the tracks that are full once the poses of their frames are smooth.
+/// and the tracks that are full.
 [[nodiscard]] std::vector<Track> extract_finished(KeyframeId newest, const TrackOptions& options,
                                                   std::vector<Track>& tracks);
 

@@ -225,7 +225,6 @@ std::vector<std::int32_t> finished_at(int newest, const TrackOptions& options, s
 TEST(TakeFinished, tracks_that_left_the_window) {
   TrackOptions options;
   options.window = 5;
-  options.smooth_frames = 2;
   const FrameBuffer frames = testkit::drive(testkit::roadside_points(4), 8);
   std::vector<Track> tracks{testkit::track_of(frames, 0, 0, 3), testkit::track_of(frames, 1, 0, 2),
                             testkit::track_of(frames, 2, 0, 7), testkit::track_of(frames, 3, 2, 2)};
@@ -239,15 +238,15 @@ TEST(TakeFinished, tracks_that_left_the_window) {
   EXPECT_TRUE(tracks.empty());
 }
 
-TEST(TakeFinished, full_tracks_once_their_poses_are_smooth) {
+TEST(TakeFinished, full_tracks) {
   TrackOptions options;
   options.window = 8;
-  options.smooth_frames = 3;
   options.max_frames = 5;
   const FrameBuffer frames = testkit::drive(testkit::roadside_points(2), 8);
   std::vector<Track> tracks{testkit::track_of(frames, 0, 0, 3), testkit::track_of(frames, 1, 2, 3)};
-  EXPECT_TRUE(finished_at(5, options, tracks).empty());  // full, but frame 3 has two frames after it
-  EXPECT_EQ(finished_at(6, options, tracks), (std::vector<std::int32_t>{0, 1}));
+  EXPECT_TRUE(finished_at(3, options, tracks).empty());
+  EXPECT_EQ(finished_at(4, options, tracks), (std::vector<std::int32_t>{0}));
+  EXPECT_EQ(finished_at(6, options, tracks), (std::vector<std::int32_t>{1}));
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ SurveyOptions small_window() {
   SurveyOptions options;
   options.observer.features.count = 500;
   options.tracks.window = 6;
-  options.tracks.smooth_frames = 3;
+  options.tracks.pose_frames = 3;
   options.tracks.max_frames = 10;
   return options;
 }

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/pose_adjustment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cairn/geometry/camera_pose.h"
+#include "cairn/optimize/bundle_adjustment.h"
+
+namespace cairn {
+namespace {
+
+/// Sums what given and seen motions over `lag` frames differ by.
+class MotionDifferences {
+ public:
+  MotionDifferences(const FrameBuffer& frames, KeyframeId first, KeyframeId last, int lag) : lag_(lag) {
+    for (int k = first.value + lag; k <= last.value; ++k) add(frames, k);
+  }
+
+  [[nodiscard]] int count() const { return count_; }
+  [[nodiscard]] Vector6d variances() const { return squares_ / count_ - (sum_ / count_).cwiseAbs2(); }
+  /// Returns the part of these that the noise of pixels explains.
+  [[nodiscard]] Vector6d formal_variances() const { return formal_ / count_; }
+
+ private:
+  /// Adds the motion that ends at frame `k`, if the images show all of it.
+  void add(const FrameBuffer& frames, int k) {
+    Vector6d formal = Vector6d::Zero();
+    for (int j = k - lag_ + 1; j <= k; ++j) {
+      const auto& motion = frames[KeyframeId{j}].motion;
+      if (!motion) return;
+      formal.head<3>().array() += motion->rotation_variance;
+      formal.tail<3>().array() += motion->translation_variance;
+    }
+    const SurveyFrame &before = frames[KeyframeId{k - lag_}], &frame = frames[KeyframeId{k}];
+    const Rigid3 given = frame.given.world_from_camera.inverse() * before.given.world_from_camera,
+                 seen = frame.odometry.inverse() * before.odometry;
+    const Vector6d difference = left_perturbation(given, seen);
+    sum_ += difference;
+    squares_ += difference.cwiseAbs2();
+    formal_ += formal;
+    ++count_;
+  }
+
+  int lag_;
+  Vector6d sum_ = Vector6d::Zero(), squares_ = Vector6d::Zero(), formal_ = Vector6d::Zero();
+  int count_ = 0;
+};
+
+/// Collects cameras and tracks of a bundle.
+class PoseBundle {
+ public:
+  PoseBundle(const Rig& rig, const FrameBuffer& frames, KeyframeId begin, KeyframeId first)
+      : frames_(frames), begin_(begin) {
+    problem_.rig = rig;
+    for (KeyframeId id = begin; id <= frames.back().id; ++id.value) {
+      problem_.camera_from_world.push_back(frames[id].camera_from_world);
+      problem_.camera_fixed.push_back(id < first ? 1 : 0);
+    }
+  }
+
+  void add_priors(KeyframeId first, const PoseNoise& noise) {
+    constexpr double kLeast = 10;  // ratio of variances: the errors of many features are never independent
+    const Vector6d overconfidence =
+        (noise.motion + kTiny).cwiseQuotient(noise.formal + kTiny).cwiseMax(kLeast);
+    const Vector6d information = overconfidence.cwiseQuotient(noise.given + kTiny);
+    for (KeyframeId id = first; id <= frames_.back().id; ++id.value)
+      problem_.priors.push_back(
+          {camera_of(id), frames_[id].given.world_from_camera.inverse(), Matrix6d(information.asDiagonal())});
+  }
+
+  /// Adds what a track shows in the bundle's frames, if that says anything of their poses.
+  void add(const Track& track) {
+    const auto seen = std::find_if(track.observations.begin(), track.observations.end(),
+                                   [&](const ObservationRef& seen) { return seen.keyframe >= begin_; });
+    constexpr std::ptrdiff_t kFewest = 3;  // two agree by chance
+    if (track.observations.end() - seen < kFewest) return;
+    const auto point = static_cast<std::int32_t>(problem_.points_in_world.size());
+    const SurveyFrame& measured = frames_[track.measured.keyframe];
+    const auto feature = static_cast<std::size_t>(track.measured.feature);
+    problem_.points_in_world.push_back(measured.world_from_camera *
+                                       measured.observed.points_in_camera[feature]);
+    for (auto it = seen; it != track.observations.end(); ++it)
+      problem_.observations.push_back({camera_of(it->keyframe), point, observation_of(frames_, *it)});
+  }
+
+  [[nodiscard]] BundleProblem& problem() { return problem_; }
+  [[nodiscard]] std::int32_t camera_of(KeyframeId id) const { return id.value - begin_.value; }
+
+ private:
+  /// Variances that count as none: 1e-6 radians, 1e-5 metres.
+  inline static const Vector6d kTiny = (Vector6d() << 1e-12, 1e-12, 1e-12, 1e-10, 1e-10, 1e-10).finished();
+
+  const FrameBuffer& frames_;
+  KeyframeId begin_;
+  BundleProblem problem_;
+};
+
+/// Adjusts, leaves out what does not fit, and adjusts again.
+void adjust_twice(BundleProblem& problem, const Executor& executor) {
+  const BundleReport report = adjust_bundle(problem, {}, executor);
+  std::size_t next = 0;
+  std::erase_if(problem.observations, [&](const BundleObservation&) { return report.inlier[next++] == 0; });
+  (void)adjust_bundle(problem, {}, executor);
+}
+
+}  // namespace
+
+std::optional<VisualMotion> measure_motion(const Rig& rig, const FrameBuffer& frames,
+                                           std::span<const Track> tracks, const SurveyFrame& frame,
+                                           std::span<const TrackMatch> matches) {
+  constexpr std::size_t kMinInliers = 30;
+  if (frames.empty()) return std::nullopt;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Observation> seen;
+  for (const TrackMatch& match : matches) {
+    points.push_back(tracks[static_cast<std::size_t>(match.track)].point_in_world);
+    seen.push_back(frame.observed.observations[static_cast<std::size_t>(match.feature)]);
+  }
+  if (points.size() < kMinInliers) return std::nullopt;
+  const PoseEstimate fit = estimate_pose(rig, {points, seen}, frame.odometry.inverse(),
+                                         {.selection = PoseSelection::inliers_from_all});
+  if (!fit.found() || fit.inliers.size() < std::max(kMinInliers, points.size() / 2)) return std::nullopt;
+  const Matrix6d covariance = fit.variance_factor * fit.covariance;
+  return VisualMotion{frames.back().odometry.inverse() * fit.camera_from_world.inverse(),
+                      covariance.topLeftCorner<3, 3>().trace() / 3,
+                      covariance.bottomRightCorner<3, 3>().trace() / 3};
+}
+
+PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId last) {
+  constexpr int kLag = 8;                // frames: what drifts has come further than jitter
+  constexpr double kLeastJitter = 0.25;  // share of what neighbours differ by, as all are estimates
+  const MotionDifferences near(frames, first, last, 1), far(frames, first, last, kLag);
+  PoseNoise noise;
+  if (near.count() < 2) return noise;
+  noise.formal = noise.motion = near.formal_variances();
+  if (far.count() > 1) {
+    // Jitter alone scatters by this, since only each eighth of the motions over eight frames is new; half of
+    // it, because to take drift for jitter does more harm.
+    const double scatter = 1 + 0.5 * std::sqrt(2.0 * kLag / far.count());
+    const Vector6d drift = (far.variances() - scatter * near.variances()) / (kLag - 1);
+    noise.motion = noise.formal.cwiseMax(drift);
+  }
+  const Vector6d jitter = (near.variances() - noise.formal) / 2;
+  noise.given = ((near.variances() - noise.motion) / 2).cwiseMax(kLeastJitter * jitter).cwiseMax(0.0);
+  return noise;
+}
+
+void adjust_poses(const Rig& rig, std::span<const Track* const> tracks, KeyframeId first, int reach,
+                  const Executor& executor, FrameBuffer& frames) {
+  const KeyframeId begin{std::max(frames.front().id.value, first.value - reach)};
+  PoseBundle bundle(rig, frames, begin, first);
+  bundle.add_priors(first, measure_noise(frames, begin, frames.back().id));
+  for (const Track* track : tracks) bundle.add(*track);
+  BundleProblem& problem = bundle.problem();
+  if (problem.observations.empty()) return;
+  adjust_twice(problem, executor);
+  for (KeyframeId id = first; id <= frames.back().id; ++id.value) {
+    SurveyFrame& frame = frames[id];
+    frame.camera_from_world =
+        CameraFromWorld(problem.camera_from_world[static_cast<std::size_t>(bundle.camera_of(id))]);
+    frame.world_from_camera = frame.camera_from_world.inverse();
+  }
+}
+
+}  // namespace cairn
