@@ -117,7 +117,7 @@ std::string_view to_string(Weakness weakness) {
 }
 
 Localizer::Localizer(const StoredMap& map, const QueryCamera& camera, const LocalizeOptions& options)
-    : map_(map), camera_(camera), options_(options) {
+    : map_(map), camera_(camera), options_(options), common_errors_(map.held_out()) {
   options.validate();
   require(camera.width > 0 && camera.height > 0 && camera.rig.fx > 0 && camera.rig.fy > 0,
           "the size and the focal lengths of the images are known");
@@ -191,10 +191,20 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
   found.variance_factor = pose.variance_factor;
   found.rms_px = pose.rms_px;
   found.precision = assess_precision(camera_.rig, matched.correspondences(), pose);
+  add_common_error(found);
   found.independent = count_independent(found, matches);
   found.cells = count_cells(found, camera_);
   judge(found);
   return found;
+}
+
+void Localizer::add_common_error(Localization& found) const {
+  const auto nearest = keyframes_near(map_, found.camera_from_world.inverse(), 1);
+  if (nearest.empty()) return;
+  const auto error = common_errors_.near(nearest.front());
+  if (!error) return;
+  const Eigen::Quaterniond world_from_keyframe = map_.poses()[nearest.front().index()].rotation;
+  cairn::add_common_error(*error, found.camera_from_world.rotation * world_from_keyframe, found.precision);
 }
 
 void Localizer::judge(Localization& found) const {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cairn/localize/common_error.h"
 #include "cairn/localize/matches.h"
 #include "cairn/localize/options.h"
 #include "cairn/localize/precision.h"
@@ -69,12 +70,14 @@ class Localizer {
   [[nodiscard]] Localization localize_anywhere(const ObservedFrame& observed) const;
   [[nodiscard]] Localization refine(const ObservedFrame& observed, const std::vector<LandmarkMatch>& matches,
                                     Keyframes keyframes) const;
+  void add_common_error(Localization& found) const;
   void judge(Localization& found) const;
   [[nodiscard]] Keyframes load(const std::vector<KeyframeId>& ids) const;
 
   const StoredMap& map_;
   QueryCamera camera_;
   LocalizeOptions options_;
+  CommonErrors common_errors_;
 };
 
 }  // namespace cairn

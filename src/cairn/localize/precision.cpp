@@ -66,4 +66,15 @@ Precision assess_precision(const Rig& rig, const Correspondences& given, const P
   return precision;
 }
 
+void add_common_error(const CommonError& error, const Eigen::Quaterniond& camera_from_keyframe,
+                      Precision& precision) {
+  const auto sigma = [](const Matrix6d& covariance) -> Vector6d {
+    return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  };
+  const Matrix6d by_noise = precision.covariance;
+  precision.covariance = by_noise + turned(error.to_map, camera_from_keyframe);
+  precision.absolute = by_noise + turned(error.to_world, camera_from_keyframe);
+  precision.protection += kTwoSided * (sigma(precision.covariance) - sigma(by_noise));
+}
+
 }  // namespace cairn

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "cairn/geometry/camera_pose.h"
+#include "cairn/localize/common_error.h"
 
 namespace cairn {
 
@@ -11,7 +14,11 @@ namespace cairn {
 /// With T' = perturb_left((w, v), T) the camera's centre moves by -R^T v in the world, to first order and
 /// whatever w: so the covariance of v is that of the position, in the camera's axes.
 struct Precision {
-  Matrix6d covariance = Matrix6d::Zero();  ///< of the left perturbation
+  /// Covariance of the left perturbation, within the map: of the poses that the map's own are. By noise, plus
+  /// what all landmarks of the place have in common, if the map knows (CommonErrors).
+  Matrix6d covariance = Matrix6d::Zero();
+  /// Covariance in the world that the poses which made the map are given in; nullopt if the map does not know.
+  std::optional<Matrix6d> absolute;
   /// Dilution of precision: the standard deviations if every observation were wrong by a pixel (1 px in u, v
   /// and d) and the landmarks exact; radians and metres per pixel. gdop is the root of the sum of squares of
   /// the three of the position.
@@ -20,13 +27,18 @@ struct Precision {
   /// Protection levels: the error along an axis exceeds its level with a probability of 1e-3, even if one of
   /// the inliers is wrong by as much as goes unnoticed. A level is 3.29 sigma plus the largest slope (error
   /// of the axis by error of an observation, as in receiver autonomous integrity monitoring, Brown and Chin
-  /// 1998) times the largest error that its inlier test misses.
+  /// 1998) times the largest error that its inlier test misses. Within the map, as `covariance`.
   Vector6d protection = Vector6d::Zero();
 };
 
 /// Computes the precision of `pose`, which must be found from these correspondences, each with a covariance
-/// of its point. Scales the covariance by max(1, variance_factor).
+/// of its point. Scales the covariance by noise by max(1, variance_factor).
 [[nodiscard]] Precision assess_precision(const Rig& rig, const Correspondences& correspondences,
                                          const PoseEstimate& pose);
+
+/// Adds errors that landmarks have in common, in the axes of a keyframe, to a precision by noise alone; the
+/// camera is turned by `camera_from_keyframe`.
+void add_common_error(const CommonError& error, const Eigen::Quaterniond& camera_from_keyframe,
+                      Precision& precision);
 
 }  // namespace cairn

@@ -10,6 +10,7 @@
 #include "cairn/core/text.h"
 #include "cairn/geometry/unit_rotation.h"
 #include "cairn/map_files/frame_file.h"
+#include "cairn/map_files/held_out_file.h"
 #include "cairn/map_files/landmark_files.h"
 #include "cairn/map_files/place_file.h"
 #include "cairn/map_files/uvlist.h"
@@ -195,7 +196,7 @@ void MapWriter::write_info(const MapInfo& info) {
   file.commit();
 }
 
-void MapWriter::finish() {
+void MapWriter::finish(std::span<const HeldOutFrame> held_out) {
   require(frames_ > 0, "a map to write has keyframes");
   MapInfo info{header_, {}, landmarks_, features_, observations_, {}};
   write_binary(kPointFile, begin_point_file(landmarks_, observations_), Part::points, info);
@@ -204,6 +205,11 @@ void MapWriter::finish() {
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);
+  if (!held_out.empty()) {
+    const std::string text = format_held_out(held_out);
+    write_file(folder_ / kHeldOutFile, text);
+    info.checksums[kHeldOutFile] = crc32(text);
+  }
   info.checksums[kPlaceFile] = write_place_file(folder_, info, folder_ / kAppendFolder);
   write_info(info);  // last: it says that all others are there
 }

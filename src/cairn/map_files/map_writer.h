@@ -10,6 +10,7 @@
 
 #include "cairn/core/append_file.h"
 #include "cairn/geometry/framed.h"
+#include "cairn/map/held_out_frame.h"
 #include "cairn/map/indicators.h"
 #include "cairn/map/map.h"
 #include "cairn/map_files/map_info.h"
@@ -70,10 +71,10 @@ class MapWriter {
   /// Writes all that was added to the disk, and returns the state for resuming there.
   [[nodiscard]] MapWriterState save();
 
-  /// Puts the files of the map together. To be called last, with at least one frame. Its working files stay
-  /// in the folder, so that a crash during the call can be resumed as well; discard_append_files removes
-  /// them.
-  void finish();
+  /// Puts the files of the map together; `held_out` are frames of it, and the map has no such file if there
+  /// are none. To be called last, with at least one frame. Its working files stay in the folder, so that a
+  /// crash during the call can be resumed as well; discard_append_files removes them.
+  void finish(std::span<const HeldOutFrame> held_out = {});
   /// Removes the working files from the folder of a map that is finished.
   static void discard_append_files(const std::filesystem::path& folder);
 

@@ -10,6 +10,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/map_files/frame_file.h"
+#include "cairn/map_files/held_out_file.h"
 #include "cairn/map_files/map_file.h"
 #include "cairn/map_files/map_text_files.h"
 
@@ -71,6 +72,7 @@ StoredMap::StoredMap(const std::filesystem::path& folder)
     : folder_(require_map_folder(folder)),
       info_(read_map_info(folder_ / kMapInfoFile)),
       poses_(read_map_poses(folder_, info_)),
+      held_out_(read_held_out(folder_, info_)),
       points_(folder_ / kPointFile, kPointKind, info_.checksum_of(kPointFile)),
       places_(folder_, info_),
       main_component_(main_component_of(info_)),
@@ -118,6 +120,7 @@ std::uint64_t StoredMap::touched_bytes() const {
 void StoredMap::check() const {
   check_map_text(folder_, info_, kPosesFile);
   check_map_text(folder_, info_, kUvlistFile);
+  if (info_.checksum_of(kHeldOutFile)) check_map_text(folder_, info_, kHeldOutFile);
   check_sealed_file(folder_ / kPointFile, kPointKind, info_.checksum_of(kPointFile));
   check_sealed_file(folder_ / kDescriptorFile, kDescriptorKind, info_.checksum_of(kDescriptorFile));
   check_sealed_file(folder_ / kPlaceFile, kPlaceKind, info_.checksum_of(kPlaceFile));

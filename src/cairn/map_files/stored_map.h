@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/geometry/framed.h"
+#include "cairn/map/held_out_frame.h"
 #include "cairn/map_files/landmark_files.h"
 #include "cairn/map_files/map_info.h"
 #include "cairn/map_files/place_file.h"
@@ -37,6 +38,8 @@ class StoredMap {
   /// Returns whether a keyframe is in the main component, the one with the most keyframes. Only poses of one
   /// component have a common world.
   [[nodiscard]] bool in_main_component(KeyframeId id) const;
+  /// Returns the frames that were located without their observations; none of a map that has no such file.
+  [[nodiscard]] const std::vector<HeldOutFrame>& held_out() const { return held_out_; }
   [[nodiscard]] const PlaceFile& places() const { return places_; }
   /// Returns a landmark. Throws PreconditionError if it is not in the map.
   [[nodiscard]] StoredLandmark landmark(LandmarkId id) const;
@@ -57,6 +60,7 @@ class StoredMap {
   std::filesystem::path folder_;
   MapInfo info_;
   std::vector<WorldFromCamera> poses_;
+  std::vector<HeldOutFrame> held_out_;
   MappedFile points_;
   PlaceFile places_;
   std::int32_t main_component_ = 0;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr std::array<const char*, 6> kAxes{"rx", "ry", "rz", "x", "y", "z"};
+constexpr std::size_t kAbsoluteColumns = 6 + 21;
 
 /// Returns the names of six columns, rotations first.
 std::string columns(const char* name, const char* of_rotation, const char* of_position) {
@@ -30,7 +31,21 @@ std::string format_header() {
   text += columns("protection", "deg", "m");
   for (std::size_t i = 0; i < kAxes.size(); ++i)
     for (std::size_t k = i; k < kAxes.size(); ++k) text += fmt::format(",cov_{}_{}", kAxes[i], kAxes[k]);
+  text += columns("abs_std", "deg", "m");
+  for (std::size_t i = 0; i < kAxes.size(); ++i)
+    for (std::size_t k = i; k < kAxes.size(); ++k) text += fmt::format(",abs_cov_{}_{}", kAxes[i], kAxes[k]);
   return text + "\n";
+}
+
+std::string format_upper(const Matrix6d& covariance) {
+  std::string text;
+  for (int i = 0; i < 6; ++i)
+    for (int k = i; k < 6; ++k) text += fmt::format(",{:.9g}", covariance(i, k));
+  return text;
+}
+
+Vector6d deviations_of(const Matrix6d& covariance) {
+  return covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 std::string format_six(const Vector6d& values) {
@@ -52,11 +67,10 @@ std::string format_quality(const Localization& found) {
   std::string text = fmt::format(",{},{},{},{},{:.4g},{:.4g},{},{:.6g}", found.matches.size(),
                                  found.inliers.size(), found.independent, found.cells, found.rms_px,
                                  found.variance_factor, found.from_prior ? 1 : 0, precision.gdop);
-  const Vector6d std = precision.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  text += format_six(precision.dilution) + format_six(std) + format_six(precision.protection);
-  for (int i = 0; i < 6; ++i)
-    for (int k = i; k < 6; ++k) text += fmt::format(",{:.9g}", precision.covariance(i, k));
-  return text;
+  text += format_six(precision.dilution) + format_six(deviations_of(precision.covariance)) +
+          format_six(precision.protection) + format_upper(precision.covariance);
+  if (!precision.absolute) return text + std::string(kAbsoluteColumns, ',');
+  return text + format_six(deviations_of(*precision.absolute)) + format_upper(*precision.absolute);
 }
 
 std::string format_row(const LocalizedImage& image) {
@@ -64,7 +78,7 @@ std::string format_row(const LocalizedImage& image) {
   std::string text = fmt::format("{},{},{},{},{}", image.position, format_stamp(image.stamp_ns), image.file,
                                  to_string(found.verdict), to_string(found.weakness));
   if (found.found()) return text + format_pose(found) + format_quality(found) + "\n";
-  constexpr std::size_t kPoseColumns = 7, kQualityColumns = 7 + 3 * 6 + 21;
+  constexpr std::size_t kPoseColumns = 7, kQualityColumns = 7 + 3 * 6 + 21 + kAbsoluteColumns;
   return text + std::string(kPoseColumns, ',') + fmt::format(",{}", found.matches.size()) +
          std::string(kQualityColumns, ',') + "\n";
 }
@@ -76,8 +90,8 @@ std::string format_localization_csv(const std::vector<LocalizedImage>& images,
   std::string text =
       "# Poses are world_from_camera. Axes of dop, std, protection (exceeded with probability 1e-3) and cov "
       "are the camera's: x right, y down, z forward; rx ry rz are rotations about them. cov in radians and "
-      "metres: of the left perturbation (rx ry rz x y z) of camera_from_world. std, protection and cov know "
-      "noise alone, not the errors that the whole map has in common. Pixels are those of images of " +
+      "metres: of the left perturbation (rx ry rz x y z) of camera_from_world. std, protection and cov are "
+      "within the map, abs_std and abs_cov in the world of the poses that made it; empty: not known. Pixels are those of images of " +
       summary.camera + ". stamp_s: " + summary.stamps + ".\n" + format_header();
   for (const LocalizedImage& image : images) text += format_row(image);
   return text;

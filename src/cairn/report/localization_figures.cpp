@@ -51,6 +51,13 @@ std::optional<double> median_std_m(const std::vector<LocalizedImage>& images) {
   });
 }
 
+std::optional<double> median_absolute_std_m(const std::vector<LocalizedImage>& images) {
+  return median_of(images, [](const LocalizedImage& image) -> std::optional<double> {
+    if (!image.found.found() || !image.found.precision.absolute) return std::nullopt;
+    return std::sqrt(image.found.precision.absolute->diagonal().tail<3>().maxCoeff());
+  });
+}
+
 std::optional<double> median_protection_m(const std::vector<LocalizedImage>& images) {
   return median_of(images, [](const LocalizedImage& image) -> std::optional<double> {
     if (!image.found.found()) return std::nullopt;

@@ -27,8 +27,10 @@ struct VerdictCounts {
 [[nodiscard]] std::optional<double> median_inliers(const std::vector<LocalizedImage>& images);
 
 /// Returns the median, over the images with a pose, of the largest standard deviation of the position along
-/// an axis by noise alone, metres; nothing if there are none.
+/// an axis within the map, metres; nothing if there are none.
 [[nodiscard]] std::optional<double> median_std_m(const std::vector<LocalizedImage>& images);
+/// Returns the same of the position in the world of the poses that made the map; nothing if none knows it.
+[[nodiscard]] std::optional<double> median_absolute_std_m(const std::vector<LocalizedImage>& images);
 
 /// Returns the median, over the images with a pose, of the largest protection level of the position along an
 /// axis, metres; nothing if there are none.

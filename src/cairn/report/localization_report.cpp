@@ -16,14 +16,22 @@ namespace {
 
 constexpr const char* kTimes = "times";
 
-/// Adds what is said of poses, if there are any. The covariance knows noise alone, and the text says so.
+/// Adds what is said of poses, if there are any. Without held-out frames the covariance knows noise alone, and
+/// the text says so.
 void add_precision(const std::vector<LocalizedImage>& images, TextBuilder& text) {
   const auto inliers = median_inliers(images), std_m = median_std_m(images);
   if (!inliers || !std_m) return;
   text.add("inliers      {:.0f} in the median\n", *inliers);
+  const double protection_cm = 100 * median_protection_m(images).value_or(0);
+  if (const auto absolute_m = median_absolute_std_m(images)) {
+    text.add("position     {:.2g} cm within the map (standard deviation), protection level {:.2g} cm;\n",
+             100 * *std_m, protection_cm);
+    text.add("             {:.2g} cm in the world of the poses that made it (medians)\n", 100 * *absolute_m);
+    return;
+  }
   text.add(
       "position     {:.2g} cm by noise alone (standard deviation), protection level {:.2g} cm (medians);\n",
-      100 * *std_m, 100 * median_protection_m(images).value_or(0));
+      100 * *std_m, protection_cm);
   text.add("             errors that the whole map has in common are in neither\n");
 }
 
@@ -96,6 +104,7 @@ std::string format_localization_json(const std::vector<LocalizedImage>& images,
   json["stopped"] = summary.stopped;
   json["median_inliers"] = json_of(median_inliers(images));
   json["median_std_m"] = json_of(median_std_m(images));
+  json["median_absolute_std_m"] = json_of(median_absolute_std_m(images));
   json["median_protection_m"] = json_of(median_protection_m(images));
   json["threads"] = summary.threads;
   json["seconds"] = {{"open", summary.open_seconds}, {"total", summary.total_seconds}};

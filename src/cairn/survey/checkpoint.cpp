@@ -53,6 +53,10 @@ void get(BinaryReader& reader, LandmarkId& id) {
   id.value = reader.get<std::int32_t>();
 }
 
+void put(const HeldOutLandmark& landmark, ByteWriter& writer);
+void get(BinaryReader& reader, HeldOutLandmark& landmark);
+void put(const HeldOutFrame& frame, ByteWriter& writer);
+void get(BinaryReader& reader, HeldOutFrame& frame);
 void put(const Track& track, ByteWriter& writer);
 void get(BinaryReader& reader, Track& track);
 void put(const SurveyLandmark& landmark, ByteWriter& writer);
@@ -69,6 +73,30 @@ void get(BinaryReader& reader, std::vector<Item>& items) {
   const auto count = reader.get<std::uint64_t>();
   items.clear();
   for (std::uint64_t i = 0; i < count; ++i) get(reader, items.emplace_back());
+}
+
+void put(const HeldOutLandmark& landmark, ByteWriter& writer) {
+  writer.put(landmark.feature);
+  put_matrix(landmark.point_in_world, writer);
+  put_matrix(landmark.covariance, writer);
+}
+
+void get(BinaryReader& reader, HeldOutLandmark& landmark) {
+  landmark.feature = reader.get<std::int32_t>();
+  get_matrix(reader, landmark.point_in_world);
+  get_matrix(reader, landmark.covariance);
+}
+
+void put(const HeldOutFrame& frame, ByteWriter& writer) {
+  writer.put(frame.keyframe.value);
+  for (const Vector6d* values : {&frame.to_map, &frame.to_given, &frame.formal, &frame.stated})
+    put_matrix(*values, writer);
+}
+
+void get(BinaryReader& reader, HeldOutFrame& frame) {
+  frame.keyframe.value = reader.get<std::int32_t>();
+  for (Vector6d* values : {&frame.to_map, &frame.to_given, &frame.formal, &frame.stated})
+    get_matrix(reader, *values);
 }
 
 void put(const Track& track, ByteWriter& writer) {
@@ -185,6 +213,7 @@ void put(const SurveyFrame& frame, ByteWriter& writer) {
   writer.put(frame.observed.frame.value);
   put(frame.kept, writer);
   put(frame.landmarks, writer);
+  put(frame.held_out, writer);
   put(frame.world_from_camera, writer);
   put(frame.odometry, writer);
   writer.put(static_cast<std::uint8_t>(frame.motion ? 1 : 0));
@@ -200,6 +229,7 @@ SurveyFrame get_frame(BinaryReader& reader) {
   frame.observed.frame.value = reader.get<std::int32_t>();
   get(reader, frame.kept);
   get(reader, frame.landmarks);
+  get(reader, frame.held_out);
   frame.world_from_camera = WorldFromCamera(get_transform(reader));
   frame.camera_from_world = frame.world_from_camera.inverse();
   frame.odometry = WorldFromCamera(get_transform(reader));
@@ -219,6 +249,7 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   get(reader, state.tracks);
   get(reader, state.finished);
   state.first_open_pose.value = reader.get<std::int32_t>();
+  get(reader, state.held_out);
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
@@ -244,6 +275,7 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   put(state.tracks, writer);
   put(state.finished, writer);
   writer.put(state.first_open_pose.value);
+  put(state.held_out, writer);
   put(state.pending, writer);
   put(state.variance.sums(), writer);
   SurveyCounts counts = state.counts;

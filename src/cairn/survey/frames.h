@@ -20,6 +20,13 @@ struct VisualMotion {
   double translation_variance = 0;  ///< per axis, square metres
 };
 
+/// Holds a landmark as it is without what one frame shows of it.
+struct HeldOutLandmark {
+  std::int32_t feature = -1;  ///< of the frame that is held out
+  Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< square metres
+};
+
 /// Holds a frame with its pose, for as long as tracks need it.
 struct SurveyFrame {
   KeyframeId id;
@@ -34,6 +41,7 @@ struct SurveyFrame {
   std::optional<VisualMotion> motion;  ///< nullopt for the first frame, and if the images do not show it
   /// One per feature; not valid if it shows no landmark, or none is known yet.
   std::vector<LandmarkId> landmarks;
+  std::vector<HeldOutLandmark> held_out;  ///< of landmarks that are written, if is_held_out(id)
 };
 
 /// Makes a frame with the given pose, and with standard deviations scaled by `sigma_px`.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cairn/map/held_out_frame.h"
 #include "cairn/map_files/map_writer.h"
 #include "cairn/survey/landmarks.h"
 #include "cairn/survey/survey.h"
@@ -25,6 +26,7 @@ struct SurveyState {
   std::vector<SurveyLandmark> pending;  ///< cleaned landmarks that later ones may be merged with
   VarianceModel variance;
   SurveyCounts counts;
+  std::vector<HeldOutFrame> held_out;  ///< frames that were written and located without their observations
 };
 
 }  // namespace cairn

@@ -159,7 +159,7 @@ class SurveyPipeline {
   void finish() {
     require_frames();
     surveyor_->finish(executor_);
-    writer_->finish();
+    writer_->finish(surveyor_->state().held_out);
     MapWriter::discard_append_files(folder_);
     remove_checkpoint(folder_);
   }
@@ -227,6 +227,7 @@ class SurveyPipeline {
     result_.times.merging = times.merging;
     result_.times.writing = times.writing;
     result_.noise = state.variance.prior();
+    result_.held_out = state.held_out;
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;

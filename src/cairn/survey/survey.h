@@ -8,6 +8,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/core/progress.h"
+#include "cairn/map/held_out_frame.h"
 #include "cairn/observe/row_errors.h"
 #include "cairn/optimize/disparity_calibration.h"
 #include "cairn/optimize/disparity_noise_estimate.h"
@@ -69,6 +70,7 @@ struct SurveyResult {
   /// the images, and from the poses' stated deviations.
   double image_std_rms_m = 0, pose_std_rms_m = 0;
   StatedDeviations stated;    ///< of the given poses
+  std::vector<HeldOutFrame> held_out;  ///< frames that were located without their observations
   RowErrors row_errors;       ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair, by the given poses

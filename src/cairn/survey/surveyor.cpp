@@ -6,6 +6,7 @@
 
 #include "cairn/core/stopwatch.h"
 #include "cairn/survey/duplicates.h"
+#include "cairn/survey/held_out.h"
 #include "cairn/survey/pose_adjustment.h"
 
 namespace cairn {
@@ -172,6 +173,8 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
 void Surveyor::write_landmarks(KeyframeId seen_before) {
   Stopwatch watch;
   std::vector<SurveyLandmark> later;
+  const VariancePrior prior = state_.variance.prior();
+  HoldOut hold_out(rig_, options_, prior, state_.frames);
   for (SurveyLandmark& landmark : state_.pending) {
     if (landmark.observations.back().keyframe >= seen_before) {
       later.push_back(std::move(landmark));
@@ -180,6 +183,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
     for (const ObservationRef& observation : landmark.observations)
       state_.frames[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)] =
           state_.next_landmark;
+    hold_out.add(landmark);
     writer_.add_landmark(finished(state_.frames, landmark));
     ++state_.next_landmark.value;
     ++state_.counts.landmarks;
@@ -193,9 +197,12 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
 /// Writes the frames before `before`, whose landmarks must all be known.
 void Surveyor::write_frames(KeyframeId before) {
   Stopwatch watch;
-  for (; !state_.frames.empty() && state_.frames.front().id < before; state_.frames.pop_front())
+  for (; !state_.frames.empty() && state_.frames.front().id < before; state_.frames.pop_front()) {
+    if (const auto found = locate_held_out(rig_, state_.frames.front(), options_.covariance.sigma_px))
+      state_.held_out.push_back(*found);
     writer_.add_frame(state_.frames.front().observed, state_.frames.front().landmarks,
                       state_.frames.front().world_from_camera);
+  }
   times_.writing += watch.lap();
 }
 

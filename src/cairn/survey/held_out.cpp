@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/survey/held_out.h"
+
+#include <algorithm>
+
+#include "cairn/geometry/camera_pose.h"
+
+namespace cairn {
+namespace {
+
+/// Returns the observations of the landmark in frames other than `frame`.
+std::vector<CameraObservation> observations_without(const FrameBuffer& frames, const SurveyLandmark& landmark,
+                                                    KeyframeId frame) {
+  std::vector<CameraObservation> others;
+  for (const ObservationRef& observation : landmark.observations)
+    if (observation.keyframe != frame)
+      others.push_back({static_cast<std::int32_t>(frames.position(observation.keyframe)),
+                        observation_of(frames, observation)});
+  return others;
+}
+
+/// Returns the variances of a given pose as those of the left perturbation of camera_from_world.
+Vector6d stated_variances(const GivenPose& given) {
+  if (!given.uncertainty) return Vector6d::Zero();
+  const Eigen::Matrix3d camera_from_world = given.world_from_camera.matrix3().transpose();
+  const auto turned = [&](const Eigen::Matrix3d& covariance) -> Eigen::Vector3d {
+    return (camera_from_world * covariance * camera_from_world.transpose()).diagonal();
+  };
+  Vector6d variances;
+  variances << turned(given.uncertainty->rotation), turned(given.uncertainty->position);
+  return variances.cwiseMax(0.0);
+}
+
+}  // namespace
+
+bool is_held_out(KeyframeId frame) {
+  constexpr std::int32_t kEvery = 3, kFirst = 1;
+  return frame.value % kEvery == kFirst;
+}
+
+HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const VariancePrior& prior,
+                 FrameBuffer& frames)
+    : prior_(prior), frames_(frames), cameras_(frames.camera_poses()), solver_(rig, cameras_, options.fit) {}
+
+void HoldOut::add(const SurveyLandmark& landmark) {
+  for (const ObservationRef& observation : landmark.observations) {
+    if (!is_held_out(observation.keyframe)) continue;
+    solver_.fit(observations_without(frames_, landmark, observation.keyframe), fit_);
+    if (fit_.status != LandmarkFitStatus::ok) continue;
+    const Eigen::Matrix3d own = prior_.factor(fit_.squared_error_sum, fit_.redundancy) * fit_.covariance;
+    frames_[observation.keyframe].held_out.push_back(
+        {observation.feature, fit_.point_in_world, own + landmark.pose_covariance});
+  }
+}
+
+std::optional<HeldOutFrame> locate_held_out(const Rig& rig, const SurveyFrame& frame, double sigma_px) {
+  constexpr std::size_t kFewest = 50;  // as TrustOptions::min_inliers
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Observation> seen;
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const HeldOutLandmark& landmark : frame.held_out) {
+    points.push_back(landmark.point_in_world);
+    covariances.push_back(landmark.covariance);
+    seen.push_back(frame.observed.observations[static_cast<std::size_t>(landmark.feature)]);
+    seen.back().sigma_px /= sigma_px;
+  }
+  if (points.size() < kFewest) return std::nullopt;
+  const PoseEstimate pose =
+      estimate_pose(rig, {points, seen, covariances}, frame.camera_from_world, {.keep_pixels = false});
+  if (!pose.found() || pose.inliers.size() < kFewest) return std::nullopt;
+  HeldOutFrame result;
+  result.keyframe = frame.id;
+  result.to_map = left_perturbation(pose.camera_from_world, frame.camera_from_world);
+  result.to_given = left_perturbation(pose.camera_from_world, frame.given.world_from_camera.inverse());
+  result.formal = std::max(1.0, pose.variance_factor) * pose.covariance.diagonal().cwiseMax(0.0);
+  result.stated = stated_variances(frame.given);
+  return result;
+}
+
+}  // namespace cairn
