@@ -202,7 +202,7 @@ CASES = [
     # landmarks
     Case("landmarks of a simulated street", "evaluate map street --landmarks --plot-coverage c.svg", given=(street_and_map,), code=0, leaves=("c.svg",),
          prints=("keyframes   8 in street, 0.00", "deg from the truth (medians), alignment none", "distance from the true surface",
-                 "along the surface's normal", "\non one surface ", "\nat an edge ", "\n10 to 20 m ", "\nif honest ")),
+                 "along the surface's normal", "\non one surface ", "\nat an edge ", "\n10 to 20 m ", "\n3 to 4 observations ", "\nif honest ")),
     Case("landmarks as JSON", "evaluate map street --landmarks --json", given=(street_and_map,), code=0,
          prints=('"keyframes": 8', '"without_covariance": 0', '"distance_from_surface_m"', '"mean_nees_per_dof"', '"by_distance"')),
     Case("landmarks of a world of its own", "evaluate map street --landmarks",

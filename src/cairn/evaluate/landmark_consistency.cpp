@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -43,11 +42,13 @@ struct PlacedLandmark {
   Vector3d point = Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double distance = 0;  ///< from the nearest camera that observed it
+  std::uint32_t observations = 0;
 };
 
 /// Holds the error of a landmark along the normal of the true surface, metres.
 struct SurfaceError {
   double error = 0, variance = 0, distance = 0;
+  std::uint32_t observations = 0;
   bool at_edge = false;
 };
 
@@ -169,7 +170,7 @@ std::vector<std::vector<PlacedLandmark>> place_landmarks(
   for (std::uint32_t number = 0; const auto landmark = landmarks.next(); ++number) {
     PlacedLandmark one{number, evaluation.truth_from_map * landmark->point_in_world,
                        turn * landmark->covariance * turn.transpose(),
-                       std::numeric_limits<double>::infinity()};
+                       std::numeric_limits<double>::infinity(), landmark->observations};
     std::optional<std::size_t> nearest;
     bool in_main = false;
     for (std::uint32_t i = 0; i < landmark->observations; ++i) {
@@ -214,7 +215,8 @@ std::optional<SurfaceError> surface_error(const fs::path& folder, const RawDepth
     throw InputError({(folder / kPointFile).string(), 0,
                       fmt::format("a positive definite covariance of landmark {}", landmark.number),
                       "one that is not", "Make the map again."});
-  return SurfaceError{surface.behind(point), variance, landmark.distance, surfaces.size() > 1};
+  return SurfaceError{surface.behind(point), variance, landmark.distance, landmark.observations,
+                      surfaces.size() > 1};
 }
 
 /// Compares the landmarks of each keyframe, in the order of keyframes.
@@ -236,15 +238,41 @@ std::vector<std::vector<std::optional<SurfaceError>>> surface_errors(
   });
 }
 
-/// Collects errors by the class of their distance.
+/// Collects errors by the class of a figure.
+class ClassErrors {
+ public:
+  /// Sets where classes begin, in ascending order from the smallest figure on; the last has no end.
+  explicit ClassErrors(std::vector<double> bounds) : bounds_(std::move(bounds)), errors_(bounds_.size()) {}
+
+  /// Returns the errors of the class of a figure.
+  [[nodiscard]] ErrorCollector& operator[](double figure) {
+    const auto next = std::upper_bound(bounds_.begin() + 1, bounds_.end(), figure);
+    return errors_[static_cast<std::size_t>(next - bounds_.begin()) - 1];
+  }
+
+  [[nodiscard]] std::vector<LandmarkClass> assess() const {
+    std::vector<LandmarkClass> classes;
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      const double to = i + 1 < bounds_.size() ? bounds_[i + 1] : std::numeric_limits<double>::infinity();
+      if (const auto assessed = errors_[i].assess()) classes.push_back({bounds_[i], to, *assessed});
+    }
+    return classes;
+  }
+
+ private:
+  std::vector<double> bounds_;
+  std::vector<ErrorCollector> errors_;
+};
+
+/// Collects the errors of all landmarks.
 class LandmarkErrors {
  public:
   void add(const SurfaceError& one) {
     const Eigen::Matrix<double, 1, 1> error(one.error), variance(one.variance);
-    const auto to = std::upper_bound(kBounds.begin() + 1, kBounds.end() - 1, one.distance);
-    all_.add(error, variance);
-    (one.at_edge ? at_edge_ : on_surface_).add(error, variance);
-    classes_[static_cast<std::size_t>(to - kBounds.begin()) - 1].add(error, variance);
+    ErrorCollector& of_place = one.at_edge ? at_edge_ : on_surface_;
+    for (ErrorCollector* const errors :
+         {&all_, &of_place, &by_distance_[one.distance], &by_observations_[one.observations]})
+      errors->add(error, variance);
     distances_.push_back(std::abs(one.error));
   }
 
@@ -255,16 +283,14 @@ class LandmarkErrors {
     evaluation.on_surface = on_surface_.assess();
     evaluation.at_edge = at_edge_.assess();
     evaluation.distances_m = summarize_errors(distances_);
-    for (std::size_t i = 0; i < classes_.size(); ++i)
-      if (const auto assessed = classes_[i].assess())
-        evaluation.by_distance.push_back({kBounds[i], kBounds[i + 1], *assessed});
+    evaluation.by_distance = by_distance_.assess();
+    evaluation.by_observations = by_observations_.assess();
   }
 
  private:
-  static constexpr std::array kBounds = {0.0,  2.5,  5.0,  10.0,
-                                         20.0, 40.0, 80.0, std::numeric_limits<double>::infinity()};
   ErrorCollector all_, on_surface_, at_edge_;
-  std::array<ErrorCollector, kBounds.size() - 1> classes_;
+  ClassErrors by_distance_{{0, 2.5, 5, 10, 20, 40, 80}};
+  ClassErrors by_observations_{{1, 3, 5, 9, 17}};
   std::vector<double> distances_;
 };
 

@@ -24,9 +24,9 @@ struct LandmarkEvaluationOptions {
   void validate() const;
 };
 
-/// Holds the landmarks whose distance from the nearest camera that observed them is within a range.
+/// Holds the landmarks of which a figure is within a range.
 struct LandmarkClass {
-  double from_m = 0, to_m = 0;  ///< the second not included; infinite of the last class
+  double from = 0, to = 0;  ///< the second not included; infinite of the last class
   ErrorConsistency consistency;
 };
 
@@ -49,7 +49,9 @@ struct LandmarkEvaluation {
   std::optional<ErrorConsistency> all;                  ///< of those judged
   std::optional<ErrorStatistics> distances_m;           ///< from the true surface, of those judged
   std::optional<ErrorConsistency> on_surface, at_edge;  ///< with one surface near them, with several
-  std::vector<LandmarkClass> by_distance;               ///< those that have a landmark
+  /// Those that have a landmark, by the distance from the nearest camera that observed it, metres, and by the
+  /// number of observations.
+  std::vector<LandmarkClass> by_distance, by_observations;
 };
 
 /// Name of the folder in a simulated sequence that holds the left camera's true depth.

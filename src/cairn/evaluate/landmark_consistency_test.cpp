@@ -145,10 +145,14 @@ TEST_F(LandmarkConsistency, FindsHonestLandmarksHonest) {
   EXPECT_NEAR(found.all->std_per_error() / found.all->honest_std_per_error(), 1, 0.1);
   std::size_t count = 0;
   for (const LandmarkClass& one : found.by_distance) {
-    EXPECT_LT(one.from_m, one.to_m);
+    EXPECT_LT(one.from, one.to);
     count += one.consistency.report.count;
   }
   EXPECT_EQ(count, 1500U);
+  ASSERT_EQ(found.by_observations.size(), 1U);  // all have two
+  EXPECT_EQ(found.by_observations[0].from, 1);
+  EXPECT_EQ(found.by_observations[0].to, 3);
+  EXPECT_EQ(found.by_observations[0].consistency.report.count, 1500U);
 }
 
 TEST_F(LandmarkConsistency, FindsLiarsOut) {

@@ -105,7 +105,8 @@ class Window {
   [[nodiscard]] const WindowPixel* at(const WindowPixel& from, const Step& step) const {
     const int du = from.du + step.first, dv = from.dv + step.second;
     if (std::max(std::abs(du), std::abs(dv)) > half_) return nullptr;
-    const int index = index_[static_cast<std::size_t>((dv + half_) * (2 * half_ + 1) + du + half_)];
+    const int place = (dv + half_) * (2 * half_ + 1) + du + half_;
+    const int index = index_[static_cast<std::size_t>(place)];
     return index < 0 ? nullptr : &pixels_[static_cast<std::size_t>(index)];
   }
 

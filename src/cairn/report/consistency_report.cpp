@@ -191,7 +191,7 @@ std::string draw_coverage(const EvaluationReport& report) {
   const bool single = report.estimates.size() == 1;
   const std::string estimates = single ? short_name(report.estimates.front().path)
                                        : fmt::format("{} estimates", report.estimates.size());
-  plot.subtitle = fmt::format("{} against {}, aligned by {}", estimates, short_name(report.reference_path),
+  plot.subtitle = fmt::format("{} against {}, alignment {}", estimates, short_name(report.reference_path),
                               name_of(report.options.alignment));
   for (const EvaluatedTrajectory& evaluated : report.estimates) {
     for (const StatedPoses& stated : evaluated.covariances) {

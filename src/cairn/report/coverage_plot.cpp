@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSide = 330, kLeft = 84, kTop = 116, kGap = 92, kLegendTop = 66, kLegendRow = 21;  // pixels
+constexpr double kSide = 350, kLeft = 84, kTop = 116, kGap = 120, kLegendTop = 66, kLegendRow = 21;  // pixels
 constexpr std::size_t kPanelsInARow = 3;
 constexpr const char* kBand = "#dfe6ee";
 
@@ -82,7 +82,7 @@ std::string draw_coverage_plot(const CoveragePlot& plot) {
   const double height = kSide + kLegendTop + kLegendRow * static_cast<double>(most_curves) + 44;
   const std::size_t columns = std::min(kPanelsInARow, plot.panels.size());
   const std::size_t rows = (plot.panels.size() + kPanelsInARow - 1) / kPanelsInARow;
-  constexpr double kNarrowest = 620;  // for the titles
+  constexpr double kNarrowest = 740;  // for the titles
   SvgCanvas canvas(std::max(kNarrowest, kLeft + static_cast<double>(columns) * (kSide + kGap)),
                    kTop + static_cast<double>(rows) * height);
   canvas.text({kLeft, 34}, plot.title, {.size = 17, .fill = kInk, .bold = true});

@@ -33,11 +33,11 @@ TEST(CoveragePlot, draws_a_curve_with_four_marks) {
   EXPECT_EQ(count_of(svg, "<circle"), 4U);
 }
 
-/// The middle of the axes is 84 + 165 = 249 pixels from the left, 116 + 165 = 281 from above.
+/// The middle of the axes is 84 + 175 = 259 pixels from the left, 116 + 175 = 291 from above.
 TEST(CoveragePlot, puts_honest_covariances_on_the_diagonal) {
-  EXPECT_NE(draw_coverage_plot({"", "", {{"", {{"", even_report(1)}}}}}).find("249.0,281.0"),
+  EXPECT_NE(draw_coverage_plot({"", "", {{"", {{"", even_report(1)}}}}}).find("259.0,291.0"),
             std::string::npos);
-  EXPECT_EQ(draw_coverage_plot({"", "", {{"", {{"", even_report(4)}}}}}).find("249.0,281.0"),
+  EXPECT_EQ(draw_coverage_plot({"", "", {{"", {{"", even_report(4)}}}}}).find("259.0,291.0"),
             std::string::npos);
 }
 

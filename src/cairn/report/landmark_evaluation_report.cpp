@@ -19,10 +19,16 @@
 namespace cairn {
 namespace {
 
-/// Returns the range of distances of a class: "5 to 10 m", "above 80 m".
-std::string name_of(const LandmarkClass& one) {
-  return std::isinf(one.to_m) ? fmt::format("above {:g} m", one.from_m)
-                              : fmt::format("{:g} to {:g} m", one.from_m, one.to_m);
+/// Returns the range of a class of distances: "5 to 10 m", "above 80 m".
+std::string distance_name(const LandmarkClass& one) {
+  return std::isinf(one.to) ? fmt::format("above {:g} m", one.from)
+                            : fmt::format("{:g} to {:g} m", one.from, one.to);
+}
+
+/// Returns the range of a class of numbers: "5 to 8 observations", "17 or more observations".
+std::string observations_name(const LandmarkClass& one) {
+  return std::isinf(one.to) ? fmt::format("{:g} or more observations", one.from)
+                            : fmt::format("{:g} to {:g} observations", one.from, one.to - 1);
 }
 
 std::vector<ConsistencyRow> rows_of(const LandmarkEvaluation& result) {
@@ -33,7 +39,8 @@ std::vector<ConsistencyRow> rows_of(const LandmarkEvaluation& result) {
   add("all", result.all);
   add("on one surface", result.on_surface);
   add("at an edge", result.at_edge);
-  for (const LandmarkClass& one : result.by_distance) add(name_of(one), one.consistency);
+  for (const LandmarkClass& one : result.by_distance) add(distance_name(one), one.consistency);
+  for (const LandmarkClass& one : result.by_observations) add(observations_name(one), one.consistency);
   return rows;
 }
 
@@ -47,6 +54,18 @@ void add_counts(const LandmarkEvaluation& result, TextBuilder& text) {
       {result.in_other_components, "in other components of the map"}};
   for (const auto& [count, what] : others)
     if (count > 0) text.add("not judged  {} {}\n", count, what);
+}
+
+/// Returns the classes with their ranges, whose keys end with `unit`.
+Json classes_json(const std::vector<LandmarkClass>& classes, const std::string& unit) {
+  Json json = Json::array();
+  for (const LandmarkClass& one : classes) {
+    Json of_class = consistency_json(one.consistency, ErrorUnit::metres);
+    of_class["from" + unit] = one.from;
+    of_class["below" + unit] = std::isinf(one.to) ? Json() : Json(one.to);
+    json.push_back(of_class);
+  }
+  return json;
 }
 
 }  // namespace
@@ -95,13 +114,8 @@ std::string format_landmark_evaluation_json(const LandmarkEvaluationReport& repo
   json["all"] = consistency_json(*result.all, ErrorUnit::metres);
   if (result.on_surface) json["on_one_surface"] = consistency_json(*result.on_surface, ErrorUnit::metres);
   if (result.at_edge) json["at_an_edge"] = consistency_json(*result.at_edge, ErrorUnit::metres);
-  json["by_distance"] = Json::array();
-  for (const LandmarkClass& one : result.by_distance) {
-    Json of_class = consistency_json(one.consistency, ErrorUnit::metres);
-    of_class["from_m"] = one.from_m;
-    of_class["to_m"] = std::isinf(one.to_m) ? Json() : Json(one.to_m);
-    json["by_distance"].push_back(of_class);
-  }
+  json["by_distance"] = classes_json(result.by_distance, "_m");
+  json["by_observations"] = classes_json(result.by_observations, "");
   return format_document(json);
 }
 
@@ -118,8 +132,12 @@ std::string draw_landmark_coverage(const LandmarkEvaluationReport& report) {
   if (result.at_edge) plot.panels[0].curves.push_back({"at an edge", result.at_edge->report});
   CoveragePlot::Panel by_distance{"by the distance of the nearest camera", {}};
   for (const LandmarkClass& one : result.by_distance)
-    by_distance.curves.push_back({name_of(one), one.consistency.report});
+    by_distance.curves.push_back({distance_name(one), one.consistency.report});
+  CoveragePlot::Panel by_observations{"by the number of observations", {}};
+  for (const LandmarkClass& one : result.by_observations)
+    by_observations.curves.push_back({observations_name(one), one.consistency.report});
   plot.panels.push_back(std::move(by_distance));
+  plot.panels.push_back(std::move(by_observations));
   return draw_coverage_plot(plot);
 }
 

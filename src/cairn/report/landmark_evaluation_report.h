@@ -15,7 +15,8 @@ struct LandmarkEvaluationReport {
 };
 
 /// Returns the numbers of landmarks, their distances from the true surfaces, and whether their covariances
-/// hold: of all, on one surface, at edges, and by the distance from the nearest camera.
+/// hold: of all, on one surface, at edges, by the distance from the nearest camera and by the number of
+/// observations.
 [[nodiscard]] std::string format_landmark_evaluation_text(const LandmarkEvaluationReport& report);
 
 /// Returns a JSON object with all figures in full; metres and degrees, as the keys say.

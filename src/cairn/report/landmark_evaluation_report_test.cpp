@@ -36,6 +36,8 @@ LandmarkEvaluationReport small_report() {
   result.at_edge = errors_of(20);
   result.distances_m = ErrorStatistics{90, 0.05, 0.025, 0.0125, 0.02, 0, 0.5};
   result.by_distance = {{5, 10, errors_of(60)}, {80, std::numeric_limits<double>::infinity(), errors_of(30)}};
+  result.by_observations = {{3, 5, errors_of(70)},
+                            {17, std::numeric_limits<double>::infinity(), errors_of(20)}};
   return report;
 }
 
@@ -80,8 +82,9 @@ TEST(LandmarkEvaluationJson, has_the_figures_in_full) {
   EXPECT_EQ(json["on_one_surface"]["errors"], 70);
   EXPECT_EQ(json["at_an_edge"]["errors"], 20);
   ASSERT_EQ(json["by_distance"].size(), 2U);
-  EXPECT_EQ(json["by_distance"][0]["to_m"], 10.0);
-  EXPECT_TRUE(json["by_distance"][1]["to_m"].is_null());
+  EXPECT_EQ(json["by_distance"][0]["below_m"], 10.0);
+  EXPECT_TRUE(json["by_distance"][1]["below_m"].is_null());
+  EXPECT_EQ(json["by_observations"][0]["from"], 3.0);
 }
 
 TEST(LandmarkEvaluationPlot, has_all_and_the_classes) {
