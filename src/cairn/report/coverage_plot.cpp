@@ -90,11 +90,13 @@ std::string draw_coverage_plot(const CoveragePlot& plot) {
   canvas.text({kLeft, 77},
               "below the diagonal: promises too much; band: 95 % of independent errors, if honest",
               {.size = 13, .fill = kSoftInk});
-  for (std::size_t i = 0; i < plot.panels.size(); ++i)
-    draw_panel(plot.panels[i],
-               {kLeft + static_cast<double>(i % kPanelsInARow) * (kSide + kGap),
-                kTop + static_cast<double>(i / kPanelsInARow) * height},
-               canvas);
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    const std::size_t row = i / kPanelsInARow, column = i % kPanelsInARow;
+    draw_panel(
+        plot.panels[i],
+        {kLeft + static_cast<double>(column) * (kSide + kGap), kTop + static_cast<double>(row) * height},
+        canvas);
+  }
   return canvas.finish();
 }
 
