@@ -253,6 +253,13 @@ class StatedCovariances(program.Quality):
         self.assertEqual(sum(one["pose"]["errors"] for one in run["covariances"] if one["scope"] == "in_map"), run["pairs"])
         self.assertIn("in the map", (self.folder / "poses.svg").read_text())
 
+    def test_landmarks_of_a_room_lie_on_the_surfaces(self):
+        self.cairn("simulate", "room", "-o", "room", "--frames-count", "10", "--scale", "0.5", "--depth-truth", "--quiet")
+        self.cairn("map", "room", "--poses", "room/groundtruth.txt", "-o", "map", "--quiet")
+        found = self.figures("evaluate", "map", "room", "--landmarks")
+        self.assertGreater(found["judged"], 0.9 * found["landmarks"])
+        self.assertLess(found["distance_from_surface_m"]["median"], 0.01)
+
     def test_landmarks_of_slam_lie_on_the_surfaces(self):
         self.cairn("slam", "street", "-o", "run", "--quiet")
         self.check_landmarks("run")

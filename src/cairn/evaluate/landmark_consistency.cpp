@@ -56,7 +56,7 @@ void expect_depth_truth(const Sequence& sequence) {
   if (fs::is_directory(sequence.folder / kDepthTruthFolder)) return;
   throw InputError({sequence.folder.string(), 0,
                     fmt::format("a simulated sequence with the true depth in {}/", kDepthTruthFolder), "none",
-                    "Make one with cairn simulate street --depth-truth."});
+                    "Make one with cairn simulate street --depth-truth, or room."});
 }
 
 void expect_same_camera(const fs::path& map_folder, const MapInfo& info, const Sequence& sequence) {
@@ -196,15 +196,22 @@ std::vector<std::vector<PlacedLandmark>> place_landmarks(
   return placed;
 }
 
+/// Returns how many units of the true depth make a metre: as many as of the depth images, or of KITTI's.
+double true_depth_units(const Calibration& calibration) {
+  constexpr double kKitti = 256;
+  return calibration.depth ? calibration.depth->scale : kKitti;
+}
+
 /// Compares a landmark with the nearest of the true surfaces where it projects. Returns nullopt if there is
 /// none.
 std::optional<SurfaceError> surface_error(const fs::path& folder, const RawDepthImage& depth,
-                                          const Camera& camera, const TrueKeyframe& keyframe,
+                                          const Calibration& calibration, const TrueKeyframe& keyframe,
                                           const PlacedLandmark& landmark) {
   const Vector3d point = keyframe.camera_from_world * landmark.point;
-  const auto pixel = camera.project(point);
+  const auto pixel = calibration.camera.project(point);
   if (!pixel) return std::nullopt;
-  const std::vector<Plane> surfaces = find_surfaces(depth, camera, *pixel);
+  const std::vector<Plane> surfaces =
+      find_surfaces(depth, calibration.camera, *pixel, {.units_per_metre = true_depth_units(calibration)});
   if (surfaces.empty()) return std::nullopt;
   const Plane& surface = *std::min_element(
       surfaces.begin(), surfaces.end(),
@@ -221,9 +228,11 @@ std::optional<SurfaceError> surface_error(const fs::path& folder, const RawDepth
 
 /// Compares the landmarks of each keyframe, in the order of keyframes.
 std::vector<std::vector<std::optional<SurfaceError>>> surface_errors(
-    const fs::path& folder, const Camera& camera, const std::vector<std::optional<TrueKeyframe>>& keyframes,
+    const fs::path& folder, const Calibration& calibration,
+    const std::vector<std::optional<TrueKeyframe>>& keyframes,
     const std::vector<std::vector<PlacedLandmark>>& placed, const Executor& executor) {
   using Errors = std::vector<std::optional<SurfaceError>>;
+  const Camera& camera = calibration.camera;
   return executor.map<Errors>(placed.size(), [&](std::size_t i) {
     Errors errors;
     if (placed[i].empty()) return errors;
@@ -233,7 +242,7 @@ std::vector<std::vector<std::optional<SurfaceError>>> surface_errors(
                         fmt::format("{}x{} pixels, as the camera has", camera.width, camera.height),
                         fmt::format("{}x{}", depth.width(), depth.height()), "Simulate the sequence again."});
     for (const PlacedLandmark& landmark : placed[i])
-      errors.push_back(surface_error(folder, depth, camera, *keyframes[i], landmark));
+      errors.push_back(surface_error(folder, depth, calibration, *keyframes[i], landmark));
     return errors;
   });
 }
@@ -323,8 +332,7 @@ LandmarkEvaluation evaluate_landmarks(const fs::path& map_folder, const Sequence
   const auto keyframes = pairing.keyframes(evaluation.truth_from_map, map.poses().size());
   const auto placed = place_landmarks(folder, map, keyframes, evaluation);
   LandmarkErrors collected;
-  for (const auto& of_keyframe :
-       surface_errors(folder, sequence.calibration.camera, keyframes, placed, executor))
+  for (const auto& of_keyframe : surface_errors(folder, sequence.calibration, keyframes, placed, executor))
     for (const auto& error : of_keyframe) error ? collected.add(*error) : void(++evaluation.without_truth);
   collected.assess(evaluation);
   return evaluation;

@@ -54,7 +54,7 @@ struct LandmarkEvaluation {
   std::vector<LandmarkClass> by_distance, by_observations;
 };
 
-/// Name of the folder in a simulated sequence that holds the left camera's true depth.
+/// Name of the folder in a simulated sequence that holds the true depth of the colour or left images.
 inline constexpr const char* kDepthTruthFolder = "depth_truth";
 
 /// Compares the landmarks of a map with the surfaces of the simulated world that it was made of: all of them,
@@ -67,7 +67,7 @@ inline constexpr const char* kDepthTruthFolder = "depth_truth";
 ///
 /// The surface is the one that the true depth shows where the landmark projects into the image of the nearest
 /// camera that observed it, with the true pose; of several surfaces within 3 pixels the one that the landmark
-/// is nearest to. Depths are those of `cairn simulate street --depth-truth`.
+/// is nearest to. Depths are those of `cairn simulate street|room --depth-truth`.
 ///
 /// Throws InputError if the sequence has no true depth or poses, the map cannot be read, is not of the
 /// sequence's camera, shares no time with it, holds more than one recording, or lies in another world; and if
