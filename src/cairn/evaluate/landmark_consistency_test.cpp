@@ -40,7 +40,7 @@ double wall_depth(int frame, double u, double v) {
 /// What a map holds: landmarks around the wall, and what is wrong with them.
 struct MapOptions {
   double stretch = 1;  ///< true variance over the stated one
-  Rigid3 world;        ///< of the map, from that of the truth
+  Rigid3 world = {};   ///< of the map, from that of the truth
   Rig rig = kRig;
   std::int64_t first_stamp_ns = 0;
   int odd_landmarks = 0;  ///< of each kind: without covariance, undetermined, in the sky
