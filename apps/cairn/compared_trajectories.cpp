@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -147,6 +148,18 @@ bool find_times(const std::vector<NamedFile>& estimates, TrajectoryFile& referen
                     "Give both with time stamps (TUM format), or one pose for each of the other's."});
 }
 
+/// Returns the stamps of the poses of an estimate that stamp_like_reference keeps, as its file has them.
+std::vector<std::int64_t> file_stamps(const Reference& reference, const TrajectoryFile& file) {
+  const std::set<std::int64_t> numbers(reference.numbers.begin(), reference.numbers.end());
+  const bool is_stamp = file.key == PoseKey::stamp;
+  const bool loses_poses = reference.is_sequence && file.key == PoseKey::number;
+  std::vector<std::int64_t> stamps;
+  for (const StampedPose& pose : file.poses)
+    if (!loses_poses || numbers.contains(pose.stamp_ns))
+      stamps.push_back(is_stamp ? pose.stamp_ns : kSecondNs * pose.stamp_ns);
+  return stamps;
+}
+
 /// Stamps an estimate on the reference's clock, where it has none of its own.
 void stamp_like_reference(const Reference& reference, NamedFile& estimate) {
   TrajectoryFile& file = estimate.file;
@@ -196,6 +209,7 @@ ComparedTrajectories read_compared(const ComparedPaths& paths) {
   compared.has_times = find_times(estimates, reference.named.file);
   for (NamedFile& estimate : estimates) {
     const bool has_stamps = estimate.file.key == PoseKey::stamp;
+    compared.file_stamps_ns.push_back(file_stamps(reference, estimate.file));
     stamp_like_reference(reference, estimate);
     compared.start_offsets_ns.push_back(offset_of_starts(estimate.file, reference.named.file));
     if (has_stamps && compared.has_times) shift(paths.offset, compared.start_offsets_ns.back(), estimate);

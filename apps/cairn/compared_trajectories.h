@@ -20,6 +20,9 @@ struct ComparedPaths {
 /// Estimates and a reference with stamps by which they pair.
 struct ComparedTrajectories {
   std::vector<Trajectory> estimates;
+  /// Of each pose of each estimate the stamp in its file, nanoseconds; of files without times numbers of
+  /// frames, or positions, as seconds.
+  std::vector<std::vector<std::int64_t>> file_stamps_ns;
   Trajectory reference;
   /// What makes the first stamps of an estimate's file and of the reference's agree if it is added to the
   /// estimate's, whatever --offset says.

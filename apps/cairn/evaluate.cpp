@@ -21,6 +21,8 @@
 #include "commands.h"
 #include "common.h"
 #include "compared_trajectories.h"
+#include "evaluate_covariances.h"
+#include "evaluate_landmarks.h"
 #include "pose_arguments.h"
 #include "trajectory_inputs.h"
 
@@ -33,7 +35,8 @@ struct EvaluateArguments {
   std::vector<std::string> within;  ///< --within M,DEG
   std::vector<PoseTolerance> tolerances;
   std::optional<std::int64_t> queries;
-  std::string reference, camera, align = "se3", rpe_unit = "frames", plot;
+  std::string reference, camera, align = "se3", rpe_unit = "frames", plot, plot_coverage;
+  bool landmarks = false;
   StampOffset offset;                    ///< added to the estimates' stamps
   std::vector<double> rpe_deltas = {1};  ///< in rpe_unit
   bool rpe_all_pairs = false;
@@ -48,7 +51,8 @@ void declare_trajectories(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option(
          "EST", arguments.estimates,
          "EST: trajectory files (TUM, KITTI, EuRoC, OXTS packets or a table, docs/poses.md), or folders of "
-         "runs; REF, the last: the truth, such a file, or a sequence's folder that carries it")
+         "runs, with --landmarks one map; REF, the last: the truth, such a file, or a sequence's folder that "
+         "carries it")
       .required()
       .help_text("... REF");
   app.split_last(arguments.estimates, arguments.reference, "REF", "EST... REF");
@@ -78,10 +82,21 @@ void declare_rpe(CommandLine& app, EvaluateArguments& arguments) {
                "an interval from each pose, not from where the last one ended");
 }
 
+void declare_coverage(CommandLine& app, EvaluateArguments& arguments) {
+  app.add_option("--plot-coverage", arguments.plot_coverage,
+                 "picture of stated covariances: expected against observed shares of errors inside")
+      .type_name("OUT.svg");
+  app.add_flag("--landmarks", arguments.landmarks,
+               "EST is a map, REF its simulated sequence (--depth-truth): the landmarks' distances from the "
+               "true surfaces against their covariances");
+}
+
 void declare(CommandLine& app, EvaluateArguments& arguments) {
   declare_trajectories(app, arguments);
-  app.add_option("--align", arguments.align,
-                 "how EST is moved onto REF: se3 turns and moves, sim3 scales as well, none")
+  app.add_option(
+         "--align", arguments.align,
+         "how EST is moved onto REF: se3 turns and moves, sim3 scales as well, none; with --landmarks "
+         "none, unless it is given")
       .check(one_of({"se3", "sim3", "none"}))
       .show_default();
   app.add_option("--max-gap", arguments.options.max_gap_s, "between the stamps of a pair, seconds")
@@ -97,14 +112,20 @@ void declare(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option("--plot", arguments.plot,
                  "picture of the trajectories from three sides and of errors over time")
       .type_name("OUT.svg");
+  declare_coverage(app, arguments);
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(
       "Examples: cairn evaluate run/ recording/ --plot trajectory.svg\n"
       "          cairn evaluate run1/ run2/ other.txt recording/     a row for each\n"
       "          cairn evaluate found/ recording/ --align none --within 0.05,5 --queries 200\n"
+      "          cairn evaluate map/ street/ --landmarks --plot-coverage coverage.svg\n"
       "ATE and RPE are those of evo and the TUM tools, drift is KITTI's. The ATE is given by se3 and sim3, "
       "all else\n"
-      "by --align. Exit code 1: nothing to compare for an EST.");
+      "by --align. Covariances that a run states (localization.csv, keyframe_covariances.csv) are compared "
+      "with the\n"
+      "errors: NEES, and the shares of errors inside the ellipsoids of 50, 68, 95 and 99 %. Exit code 1: "
+      "nothing to\n"
+      "compare for an EST.");
 }
 
 /// Each unit with a delta of 1, that of --rpe-unit with those of --rpe-delta.
@@ -167,21 +188,54 @@ EvaluationReport evaluate(const EvaluateArguments& arguments, ComparedTrajectori
     report.estimates.push_back({arguments.estimates[i], std::move(compared.estimates[i]), std::move(result)});
   }
   for (const EvaluatedTrajectory& evaluated : report.estimates) check_queries(arguments, evaluated);
+  assess_covariances(compared, report);
   return report;
+}
+
+/// Throws InputError for an option that says nothing of landmarks.
+void check_for_landmarks(const CommandLine& app, const EvaluateArguments& arguments) {
+  for (const char* const option :
+       {"--plot", "--within", "--queries", "--offset", "--rpe-delta", "--rpe-unit", "--rpe-all-pairs"})
+    if (app.count(option) > 0)
+      throw InputError({option, 0, "an option that has a meaning with --landmarks", "one of trajectories",
+                        "Leave it out, or evaluate the trajectory in a command of its own."});
+  if (arguments.estimates.size() == 1) return;
+  throw InputError({"--landmarks", 0, "one map and its sequence",
+                    fmt::format("{} maps", arguments.estimates.size()), "Evaluate one map after the other."});
+}
+
+EvaluateLandmarksArguments landmark_arguments(const CommandLine& app, const EvaluateArguments& arguments) {
+  const AlignmentMode alignment =
+      app.count("--align") > 0 ? kAlignments.at(arguments.align) : AlignmentMode::none;
+  return {arguments.estimates.front(),
+          arguments.reference,
+          arguments.camera,
+          {alignment, arguments.options.max_gap_s},
+          arguments.plot_coverage,
+          arguments.common.json,
+          arguments.common.thread_count()};
+}
+
+void write_plots(const EvaluateArguments& arguments, const EvaluationReport& report) {
+  if (!arguments.plot_coverage.empty() && !has_covariances(report)) fail_without_covariances(report);
+  if (!arguments.plot.empty()) write_file(arguments.plot, draw_evaluation(report));
+  if (!arguments.plot_coverage.empty()) write_file(arguments.plot_coverage, draw_coverage(report));
 }
 
 /// Says on stderr why there is nothing to compare and what to do, or what to beware of.
 void print_doubts(const EvaluationReport& report, std::size_t index, std::int64_t start_offset_ns) {
-  const auto& [path, estimate, result] = report.estimates[index];
-  const std::string name = report.estimates.size() > 1 ? short_name(path) + ": " : "";
+  const EvaluatedTrajectory& evaluated = report.estimates[index];
+  const TrajectoryEvaluation& result = evaluated.result;
+  const std::string name = report.estimates.size() > 1 ? short_name(evaluated.path) + ": " : "";
   if (result.status == EvaluationStatus::no_pairs) {
-    fmt::print(stderr, "cairn: {}{}\n", name,
-               explain_no_pairs(estimate, report.reference, report.options.max_gap_s, start_offset_ns));
+    fmt::print(
+        stderr, "cairn: {}{}\n", name,
+        explain_no_pairs(evaluated.estimate, report.reference, report.options.max_gap_s, start_offset_ns));
   } else if (result.status == EvaluationStatus::not_alignable) {
     fmt::print(stderr, "cairn: {}no alignment by {} from {} pairs: {}.\n  Compare without: --align none.\n",
                name, name_of(report.options.alignment), result.pairs.size(), explain(result.absolute.status));
   } else {
-    warn_of_free_turn(short_name(path), result.absolute.turn_uncertainty);
+    warn_of_free_turn(short_name(evaluated.path), result.absolute.turn_uncertainty);
   }
 }
 
@@ -189,9 +243,15 @@ void print_doubts(const EvaluationReport& report, std::size_t index, std::int64_
 
 int run_evaluate(int argc, char** argv) {
   EvaluateArguments arguments;
-  CommandLine app("How far trajectories are from the truth: ATE, RPE and drift.", "evaluate");
+  CommandLine app(
+      "How far trajectories are from the truth (ATE, RPE, drift), and whether stated covariances hold.",
+      "evaluate");
   declare(app, arguments);
   if (const auto code = app.parse(argc, argv)) return *code;
+  if (arguments.landmarks) {
+    check_for_landmarks(app, arguments);
+    return evaluate_map(landmark_arguments(app, arguments));
+  }
   check(arguments);
   ComparedTrajectories compared =
       read_compared({arguments.estimates, arguments.reference, arguments.camera, arguments.offset});
@@ -202,7 +262,7 @@ int run_evaluate(int argc, char** argv) {
   const auto failed = std::count_if(report.estimates.begin(), report.estimates.end(),
                                     [](const auto& e) { return e.result.status != EvaluationStatus::ok; });
   const bool any = failed < std::ssize(report.estimates);
-  if (any && !arguments.plot.empty()) write_file(arguments.plot, draw_evaluation(report));
+  if (any) write_plots(arguments, report);
   if (arguments.common.json) {
     fmt::print("{}", format_evaluation_json(report));
   } else if (any) {

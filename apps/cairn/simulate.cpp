@@ -113,8 +113,9 @@ void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arg
       .type_name("NAME");
   add_planted_errors(street, options, arguments);
   add_body_poses(street, arguments);
-  street.add_flag("--depth-truth", arguments.depth_truth,
-                  "also the left camera's true depth, 16 bit, 1/256 m");
+  street.add_flag(
+      "--depth-truth", arguments.depth_truth,
+      "also the left camera's true depth, 16 bit, 1/256 m, as cairn evaluate --landmarks needs it");
 }
 
 void print_report(const Arguments& arguments, const SimulationReport& report, const std::string& folder,
@@ -132,7 +133,7 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   const auto progress = make_progress(arguments.common);
   const Executor executor(arguments.common.thread_count());
   const SimulationReport report =
-      write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress);
+      write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress, arguments.depth_truth);
   output.commit();
   const std::string folder = output.target().string();
   print_report(arguments, report, folder, fmt::format("cairn slam {} -o run", folder));
@@ -188,6 +189,8 @@ int run_simulate(int argc, char** argv) {
       .check(number_in(0, 100))
       .show_default()
       .type_name("FACTOR");
+  room.add_flag("--depth-truth", arguments.depth_truth,
+                "also the true depth, as the depth images, which cairn evaluate --landmarks needs");
 
   CommandLine& street = app.add_command("street", "drive around a block with a stereo camera, KITTI layout");
   add_street_options(street, street_options, arguments);

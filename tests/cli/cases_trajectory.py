@@ -2,8 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad trajectories, and such as do not determine what is asked, for evaluate and align."""
 
-from harness import Case, main
-from inputs import file, folder, trajectory, tum_sequence
+import functools
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from harness import Case, CommandLine, main
+from inputs import file, folder, replaced, trajectory, tum_sequence
 
 POSES = (trajectory("a.txt"), trajectory("b.txt"))
 
@@ -43,6 +49,76 @@ def geodetic(name, count):
     """A bend, of a body that looks north."""
     return file(name, "time,latitude,longitude,height,roll,pitch,heading\n" + "".join(
         f"{1 + 0.1 * i:.1f},{49 + 1e-5 * i:.6f},{8 + 1e-6 * i * i:.7f},{100 + 0.1 * i * i:.2f},0,0,0\n" for i in range(count)))
+
+
+AXES_OF_COVARIANCE = ("rx", "ry", "rz", "x", "y", "z")
+PLACES_OF_COVARIANCE = [(i, k) for i in range(6) for k in range(i, 6)]
+
+
+def columns(prefix):
+    """The names of the 21 columns of a covariance."""
+    return ",".join(f"{prefix}{AXES_OF_COVARIANCE[i]}_{AXES_OF_COVARIANCE[k]}" for i, k in PLACES_OF_COVARIANCE)
+
+
+def covariance(rotation, position, coupling=0.0):
+    """The values of 21 columns: both standard deviations, and what x and y have in common."""
+    diagonal = [rotation ** 2] * 3 + [position ** 2] * 3
+    return ",".join(repr(diagonal[i] if i == k else coupling * position ** 2 if (i, k) == (3, 4) else 0.0) for i, k in PLACES_OF_COVARIANCE)
+
+
+BOWL = [(0.1 * i, 0.02 * i * i, 0.01 * (i % 3)) for i in range(20)]
+OFF = [0.01 * (i % 7 - 3) for i in range(20)]  # metres, along y: 2 cm RMS, 2 cm in the median
+FOUND = [(x, y + off, z) for (x, y, z), off in zip(BOWL, OFF)]
+EMPTY = "," * 20
+
+
+def found(sets=("cov_",), values=covariance(0.001, 0.02), weak=(), name="run"):
+    """A run of cairn localize that is off by OFF; every fifth image more is not found."""
+    rows = [f"{i},{1 + 0.1 * i:.9f},{i}.png,{'weak' if i in weak else 'good'}," + ",".join([values] * len(sets)) for i in range(20)]
+    rows += [f"{i},{1 + 0.1 * i:.9f},{i}.png,none," + ",".join([EMPTY] * len(sets)) for i in range(20, 24)]
+    table = "# poses\nframe,stamp_s,file,verdict," + ",".join(columns(prefix) for prefix in sets) + "\n" + "\n".join(rows) + "\n"
+    def make(root):
+        places(f"{name}/trajectory.txt", FOUND)(root)
+        file(f"{name}/localization.csv", table)(root)
+    return make
+
+
+def keyframes(first=covariance(0.001, 0.02), previous=covariance(0.001, 0.02)):
+    """A run of cairn slam whose keyframes are every second pose; a second component begins at 2 s."""
+    def row(i):
+        return f"{1 + 0.1 * i:.9f},{first},{EMPTY if i in (0, 10) else previous}\n"
+    def make(root):
+        places("run/trajectory.txt", FOUND)(root)
+        places("run/keyframes.txt", FOUND)(root)
+        file("run/keyframe_covariances.csv", f"# keyframes\nstamp_s,{columns('first_cov_')},{columns('previous_cov_')}\n" + "".join(map(row, range(0, 20, 2))))(root)
+    return make
+
+
+TRUTH = places("ref.txt", BOWL)
+
+
+@functools.lru_cache(maxsize=None)
+def mapped_street():
+    """The files of a small street with its true depth, and of a map of it, made once."""
+    with tempfile.TemporaryDirectory() as name:
+        for command in ("simulate street -o street --scale 0.25 --frames-count 8 --depth-truth", "map street --poses street/poses.txt -o map"):
+            subprocess.run([CommandLine.program, *command.split(), "--quiet"], cwd=name, check=True, capture_output=True)
+        return {str(path.relative_to(name)): path.read_bytes() for path in Path(name).rglob("*") if path.is_file()}
+
+
+def street_and_map(root):
+    for name, contents in mapped_street().items():
+        file(name, contents)(root)
+
+
+def moved(metres):
+    """Moves the street's truth to the side."""
+    def make(root):
+        rows = [line.split() for line in (root / "street/poses.txt").read_text().splitlines()]
+        for row in rows:
+            row[3] = repr(float(row[3]) + metres)
+        (root / "street/poses.txt").write_text("".join(" ".join(row) + "\n" for row in rows))
+    return make
 
 
 CASES = [
@@ -90,6 +166,61 @@ CASES = [
     Case("folder that is no run", "evaluate run b.txt", ("run: expected a trajectory file, or a run's folder",),
          (*POSES, folder("run"))),
     Case("picture into a missing folder", "evaluate a.txt b.txt --plot no/a.svg", ("no/a.svg: expected to create the file",), POSES),
+    # stated covariances
+    Case("covariances of localised poses", "evaluate run ref.txt --align none", given=(found(), TRUTH), code=0,
+         prints=("covariances, none", "in 50 %", "in the map: pose", "\n  position ", "\n  rotation ", "3.46 cm", "if honest")),
+    Case("covariances under an alignment", "evaluate run ref.txt", given=(found(), TRUTH), code=0,
+         prints=("covariances, se3", "The alignment hides the part of the error that all poses have in common; --align none shows it.")),
+    Case("absolute covariances before those in the map", "evaluate run ref.txt --align none --json", given=(found(("cov_", "abs_cov_")), TRUTH), code=0,
+         prints=('"covariances": [\n    {\n      "scope": "absolute"', '"scope": "in_map"', '"median_std_m": 0.0346', '"nominal": 0.99')),
+    Case("covariances of weak poses apart", "evaluate run ref.txt --align none", given=(found(weak=(3, 4)), TRUTH), code=0,
+         prints=("in the map: pose                 18", "in the map, weak poses: pose      2")),
+    Case("covariances of keyframes", "evaluate run ref.txt --json", given=(keyframes(), TRUTH), code=0,
+         prints=('"scope": "from_first"', '"scope": "from_previous"', '"errors": 8')),
+    Case("covariances drawn", "evaluate run ref.txt --align none --plot-coverage c.svg", given=(found(), TRUTH), code=0, leaves=("c.svg",)),
+    Case("covariances of one of several", "evaluate run run/trajectory.txt ref.txt --plot-coverage c.svg", given=(found(), TRUTH), code=0, leaves=("c.svg",),
+         prints=("covariances, se3", "\nrun in the map: pose")),
+    Case("covariances of a shifted run", "evaluate run ref.txt --offset 100 --align none --json", given=(found(), places("ref.txt", BOWL, 101.0)), code=0,
+         prints=('"scope": "in_map"', '"without_truth": 0', '"errors": 20')),
+    Case("a run without covariances", "evaluate run ref.txt", given=(found(), file("run/localization.csv", "frame,stamp_s,std_x_m\n1,1.0,0.1\n"), TRUTH),
+         code=0, prints=("ATE se3",)),
+    Case("no covariances to draw", "evaluate run ref.txt --plot a.svg --plot-coverage c.svg",
+         ("run/localization.csv: expected covariances of poses that pair with REF, in columns cov_rx_rx to cov_z_z, found none",),
+         (found(), file("run/localization.csv", "frame,stamp_s,std_x_m\n1,1.0,0.1\n"), TRUTH)),
+    Case("a trajectory without covariances to draw", "evaluate a.txt b.txt --plot-coverage c.svg",
+         ("a.txt: expected the folder of a run that states covariances of its poses, found none", "localization.csv"), POSES),
+    Case("a covariance that is none", "evaluate run ref.txt",
+         ("run/localization.csv:3: expected a positive definite covariance in cov_rx_rx to cov_z_z, found one that is not",),
+         (found(values=covariance(0.001, 0.02, 2.0)), TRUTH)),
+    Case("a column of a covariance is missing", "evaluate run ref.txt", ("localization.csv:2: expected 21 columns cov_rx_rx to cov_z_z, found none of the name cov_x_y",),
+         (found(), replaced("run/localization.csv", ",cov_x_y", ",cov_y_x"), TRUTH)),
+    Case("a word among covariances", "evaluate run ref.txt", ("localization.csv:3: expected a number for cov_rx_rx, found '?'",),
+         (found(values="?" + covariance(0.001, 0.02)[5:]), TRUTH)),
+    Case("covariances of another run", "evaluate run ref.txt", ("localization.csv:3: expected time stamps of the run's trajectory.txt, found none",),
+         (found(), file("run/trajectory.txt", "".join(f"{1.05 + 0.1 * i:.3f} {x} {y} {z} 0 0 0 1\n" for i, (x, y, z) in enumerate(FOUND))),
+          places("ref.txt", BOWL, 1.05))),
+    # landmarks
+    Case("landmarks of a simulated street", "evaluate map street --landmarks --plot-coverage c.svg", given=(street_and_map,), code=0, leaves=("c.svg",),
+         prints=("keyframes   8 in street, 0.00", "deg from the truth (medians), alignment none", "distance from the true surface",
+                 "along the surface's normal", "\non one surface ", "\nat an edge ", "\n10 to 20 m ", "\n3 to 4 observations ", "\nif honest ")),
+    Case("landmarks as JSON", "evaluate map street --landmarks --json", given=(street_and_map,), code=0,
+         prints=('"keyframes": 8', '"without_covariance": 0', '"distance_from_surface_m"', '"mean_nees_per_dof"', '"by_distance"')),
+    Case("landmarks of a world of its own", "evaluate map street --landmarks",
+         ("map: expected a map in the world of the truth, its keyframes within 5.0 m and 10 deg, found 30.0 m and 0.0 deg (medians)", "--align se3"),
+         (street_and_map, moved(30))),
+    Case("landmarks, aligned", "evaluate map street --landmarks --align se3 --json", given=(street_and_map, moved(30)), code=0, prints=('"alignment": "se3"', '"all"')),
+    Case("landmarks of another camera", "evaluate map street --landmarks", ("map: expected a map of the camera of street: fx 190.375 ", "found fx 180.375 "),
+         (street_and_map, replaced("street/calib.txt", "P0: 1.80", "P0: 1.90"), replaced("street/calib.txt", "P1: 1.80", "P1: 1.90"))),
+    Case("landmarks without true depth", "evaluate map street --landmarks",
+         ("street: expected a simulated sequence with the true depth in depth_truth/, found none", "simulate street --depth-truth"),
+         (street_and_map, lambda root: shutil.rmtree(root / "street/depth_truth"))),
+    Case("a true depth is missing", "evaluate map street --landmarks", ("depth_truth/000007.png: expected a readable",),
+         (street_and_map, lambda root: (root / "street/depth_truth/000007.png").unlink())),
+    Case("landmarks of no map", "evaluate street street --landmarks", ("street: expected the folder of a map",), (street_and_map,)),
+    Case("landmarks against a trajectory", "evaluate map street/poses.txt --landmarks", ("street/poses.txt: expected a folder with a sequence",), (street_and_map,)),
+    Case("landmarks of two maps", "evaluate map map street --landmarks", ("--landmarks: expected one map and its sequence, found 2 maps",), (folder("map"), folder("street"))),
+    Case("landmarks within a tolerance", "evaluate map street --landmarks --within 1,1",
+         ("--within: expected an option that has a meaning with --landmarks",), (folder("map"), folder("street"))),
     # what does not determine an answer
     # formats
     Case("files of KITTI", "evaluate a.txt b.txt", given=(kitti("a.txt", BEND), kitti("b.txt", BEND)), code=0,

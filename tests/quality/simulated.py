@@ -221,6 +221,50 @@ class SmallStreet(program.Quality):
         self.assertEqual(self.figures("info", "rectified")["frames"], 12)
 
 
+class StatedCovariances(program.Quality):
+    """What cairn evaluate says of covariances, where the truth is exact."""
+
+    def setUp(self):
+        super().setUp()
+        self.cairn("simulate", "street", "-o", "street", "--frames-count", "14", "--scale", "0.25", "--depth-truth", "--quiet")
+
+    def check_landmarks(self, name):
+        found = self.figures("evaluate", name, "street", "--landmarks")
+        self.assertEqual(found["landmarks"], self.figures("info", name)["landmarks"])
+        self.assertEqual(found["judged"] + found["without_truth"] + found["without_covariance"] + found["undetermined"]
+                         + found["in_other_components"], found["landmarks"])
+        self.assertGreater(found["judged"], 0.9 * found["landmarks"])
+        for classes in ("by_distance", "by_observations"):
+            self.assertEqual(sum(one["errors"] for one in found[classes]), found["judged"])
+        self.assertLess(found["distance_from_surface_m"]["median"], 0.1)
+        shares = [one["share"] for one in found["all"]["coverage"]]
+        self.assertEqual(shares, sorted(shares))
+        return found
+
+    def test_landmarks_of_a_map_lie_on_the_surfaces(self):
+        self.cairn("map", "street", "--poses", "street/poses.txt", "-o", "map", "--quiet")
+        found = self.check_landmarks("map")
+        on_surface = found["on_one_surface"]
+        self.assertGreater(on_surface["median_nees_ratio"], 0.5)
+        self.assertLess(on_surface["median_nees_ratio"], 2)
+        self.assertGreater(on_surface["coverage"][2]["share"], 0.8)
+        self.cairn("localize", "map", "street", "-o", "found", "--quiet")
+        run = self.figures("evaluate", "found", "street", "--align", "none", "--plot-coverage", "poses.svg")
+        self.assertEqual(sum(one["pose"]["errors"] for one in run["covariances"] if one["scope"] == "in_map"), run["pairs"])
+        self.assertIn("in the map", (self.folder / "poses.svg").read_text())
+
+    def test_landmarks_of_a_room_lie_on_the_surfaces(self):
+        self.cairn("simulate", "room", "-o", "room", "--frames-count", "10", "--scale", "0.5", "--depth-truth", "--quiet")
+        self.cairn("map", "room", "--poses", "room/groundtruth.txt", "-o", "map", "--quiet")
+        found = self.figures("evaluate", "map", "room", "--landmarks")
+        self.assertGreater(found["judged"], 0.9 * found["landmarks"])
+        self.assertLess(found["distance_from_surface_m"]["median"], 0.01)
+
+    def test_landmarks_of_slam_lie_on_the_surfaces(self):
+        self.cairn("slam", "street", "-o", "run", "--quiet")
+        self.check_landmarks("run")
+
+
 class Small(program.Quality):
     """On a quarter of the pixels, where accuracy is not the question."""
 

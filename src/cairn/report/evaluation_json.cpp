@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/report/consistency_report.h"
 #include "cairn/report/evaluation_report.h"
 #include "cairn/report/json_pieces.h"
 #include "cairn/report/trajectory_words.h"
@@ -140,6 +141,7 @@ Json evaluated_json(const EvaluationReport& report, const EvaluatedTrajectory& e
   json["rpe"] = Json::array();
   for (const RelativeErrors& relative : result.relative) json["rpe"].push_back(relative_json(relative));
   json["drift"] = drift_json(result.drift);
+  if (!evaluated.covariances.empty()) json["covariances"] = stated_poses_json(evaluated.covariances);
   return json;
 }
 

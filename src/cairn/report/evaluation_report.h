@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cairn/evaluate/evaluation.h"
+#include "cairn/evaluate/pose_consistency.h"
 #include "cairn/sequence/trajectory.h"
 
 namespace cairn {
@@ -16,6 +17,7 @@ struct EvaluatedTrajectory {
   std::string path;  ///< as it was given; its last two parts are its name
   Trajectory estimate;
   TrajectoryEvaluation result;
+  std::vector<StatedPoses> covariances = {};  ///< what its run states of its poses; empty for nothing
 };
 
 /// Holds what is told of estimates that were compared with one reference.
@@ -34,8 +36,9 @@ struct EvaluationReport {
 inline constexpr double kPercents[] = {50, 90, 95, 99};
 
 /// Returns the figures of one estimate, or a table with a row for each of several; then the percentiles of
-/// the errors and the shares of poses within the tolerances. Lengths are in centimetres, or in metres if the
-/// largest error is 10 m or more. A single estimate must have been aligned (EvaluationStatus::ok).
+/// the errors, the shares of poses within the tolerances, and whether stated covariances hold. Lengths are in
+/// centimetres, or in metres if the largest error is 10 m or more. A single estimate must have been aligned
+/// (EvaluationStatus::ok).
 [[nodiscard]] std::string format_evaluation_text(const EvaluationReport& report);
 
 /// Returns a JSON object with all figures in full, or {"estimates": [...]} of several estimates. Metres,
@@ -45,5 +48,9 @@ inline constexpr double kPercents[] = {50, 90, 95, 99};
 /// Draws the estimates that were aligned, an SVG file: trajectories from three sides and errors over time.
 /// At least one is.
 [[nodiscard]] std::string draw_evaluation(const EvaluationReport& report);
+
+/// Draws whether the stated covariances hold, an SVG file: a panel for each set of them, with curves of the
+/// whole pose, its position and its rotation. At least one estimate states covariances of poses that pair.
+[[nodiscard]] std::string draw_coverage(const EvaluationReport& report);
 
 }  // namespace cairn

@@ -38,8 +38,8 @@ std::vector<TableRow> head(const EvaluationOptions& options, const ShownUnit& un
 
 TableRow row_of(const EvaluationOptions& options, const EvaluatedTrajectory& evaluated,
                 const ShownUnit& unit) {
-  const auto& [path, estimate, result] = evaluated;
-  TableRow row{short_name(path), fmt::format("{}", result.pairs.size())};
+  const TrajectoryEvaluation& result = evaluated.result;
+  TableRow row{short_name(evaluated.path), fmt::format("{}", result.pairs.size())};
   const ShownUnit degrees{"deg", 1};
   if (options.alignment == AlignmentMode::none) row.push_back(rmse(result.absolute.ate_m, unit));
   row.push_back(rmse(result.se3.ate_m, unit));

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/report/consistency_report.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/text_builder.h"
 #include "cairn/report/trajectory_words.h"
@@ -66,12 +67,13 @@ void add_drift(const std::optional<Drift>& drift, TextBuilder& text) {
 }
 
 std::string format_one(const EvaluationReport& report) {
-  const auto& [path, estimate, result] = report.estimates.front();
+  const EvaluatedTrajectory& evaluated = report.estimates.front();
+  const TrajectoryEvaluation& result = evaluated.result;
   require(result.status == EvaluationStatus::ok, "a single estimate is aligned");
   const std::size_t pairs = result.pairs.size();
   TextBuilder text;
   text.add("pairs      {} ({:.1f} % of EST, {:.1f} % of REF), {}\n", pairs,
-           share_percent(pairs, estimate.size()), share_percent(pairs, report.reference.size()),
+           share_percent(pairs, evaluated.estimate.size()), share_percent(pairs, report.reference.size()),
            describe_pairing(report));
   text.add("alignment  {}\n", describe_alignment(report, result));
   if (result.sim3.ate_m) text.add("scale      {:.6f} by sim3\n", result.sim3.reference_from_estimate.scale);
@@ -93,7 +95,7 @@ std::string describe_pairing(const EvaluationReport& report) {
 std::string format_evaluation_text(const EvaluationReport& report) {
   const std::string figures =
       report.estimates.size() == 1 ? format_one(report) : format_evaluation_table(report);
-  return figures + format_evaluation_shares(report);
+  return figures + format_evaluation_shares(report) + format_stated_poses(report);
 }
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/text.h"
 #include "cairn/image/codec.h"
+#include "cairn/simulate/sensor_noise.h"
 
 namespace cairn {
 namespace {
@@ -36,16 +37,22 @@ std::string format_associations(const Trajectory& truth) {
 }  // namespace
 
 SimulationReport write_tum(const SimulatedRoom& room, const fs::path& folder, const Executor& executor,
-                           Progress& progress) {
+                           Progress& progress, bool depth_truth) {
   make_folder(folder / "rgb");
   make_folder(folder / "depth");
+  if (depth_truth) make_folder(folder / "depth_truth");
+  const double depth_scale = room.calibration().depth->scale;
   const int frames = write_frames("simulate", room.size(), executor, progress, [&](int i) {
     const SimulatedRgbdFrame frame = room.render(i);
-    const fs::path color = folder / image_name("rgb", room.stamp_ns(i));
-    const fs::path depth = folder / image_name("depth", room.stamp_ns(i));
-    write_png(color, frame.color);
-    write_png(depth, frame.depth);
-    return std::vector<fs::path>{color, depth};
+    std::vector<fs::path> written{folder / image_name("rgb", room.stamp_ns(i)),
+                                  folder / image_name("depth", room.stamp_ns(i))};
+    write_png(written[0], frame.color);
+    write_png(written[1], frame.depth);
+    if (depth_truth) {
+      written.push_back(folder / image_name("depth_truth", room.stamp_ns(i)));
+      write_png(written[2], store_depth(frame.depth_true, depth_scale));
+    }
+    return written;
   });
   const Trajectory whole = room.truth();
   const Trajectory truth(whole.begin(), whole.begin() + frames);

@@ -32,6 +32,21 @@ class WriteTumTest : public testing::Test {
   Progress silent_;
 };
 
+/// Without noise a sensor that sees as far measures the truth.
+TEST_F(WriteTumTest, writes_the_true_depth_if_it_is_asked_for) {
+  SimulateRoomOptions options = tiny_room();
+  options.noise = RgbdNoise::none;
+  (void)write_tum(SimulatedRoom(options), folder_, Executor(2), silent_);
+  EXPECT_FALSE(fs::exists(folder_ / "depth_truth"));
+  (void)write_tum(SimulatedRoom(options), folder_, Executor(2), silent_, true);
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "depth_truth")) {
+    EXPECT_EQ(read_file(entry.path()), read_file(folder_ / "depth" / entry.path().filename()));
+    ++count;
+  }
+  EXPECT_EQ(count, options.frames_count);
+}
+
 TEST_F(WriteTumTest, is_read_back_by_the_tum_reader) {
   const SimulatedRoom room(tiny_room());
   const SimulationReport report = write_tum(room, folder_, Executor(), silent_);
