@@ -165,7 +165,8 @@ class MotionCovariances {
   [[nodiscard]] std::vector<std::pair<std::int32_t, std::int32_t>> mixed_places() const {
     std::vector<std::pair<std::int32_t, std::int32_t>> places;
     for (const MotionRows& rows : rows_)
-      if (rows.from != kFixed && rows.to != kFixed) places.push_back(std::minmax(rows.from, rows.to));
+      if (rows.from != kFixed && rows.to != kFixed)
+        places.emplace_back(std::min(rows.from, rows.to), std::max(rows.from, rows.to));
     return places;
   }
 
@@ -230,9 +231,8 @@ class MotionCovariances {
   [[nodiscard]] Matrix6d covariance(const MotionRows& rows, const Matrix6d& formal) const {
     const Eigen::Matrix<double, 6, Eigen::Dynamic> pulls = rows.times(by_cell_),
                                                    field = rows.times(by_field_);
-    const Matrix6d with_field =
-        as_covariance(Matrix6d(formal + field * field_covariance_ * field.transpose()));
-    const Matrix6d seen = as_covariance(Matrix6d(pulls * pulls.transpose()));
+    Matrix6d with_field = as_covariance(Matrix6d(formal + field * field_covariance_ * field.transpose()));
+    Matrix6d seen = as_covariance(Matrix6d(pulls * pulls.transpose()));
     const Eigen::LLT<Matrix6d> factor(with_field);
     if (factor.info() != Eigen::Success) return seen;  // of a camera to itself
     const Eigen::VectorXd sizes =
