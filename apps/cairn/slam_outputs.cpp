@@ -13,6 +13,7 @@
 #include "cairn/image/codec.h"
 #include "cairn/map_files/g2o_file.h"
 #include "cairn/map_files/map_file.h"
+#include "cairn/report/keyframe_report.h"
 #include "cairn/report/overview.h"
 #include "fusion.h"
 #include "map_pictures.h"
@@ -46,6 +47,8 @@ void write_slam_files(const std::filesystem::path& folder, const Sequence& seque
                       SlamParameters& parameters) {
   write_file(folder / "trajectory.txt", format_tum_trajectory(result.trajectory()));
   write_file(folder / "keyframes.txt", format_tum_trajectory(result.keyframe_trajectory()));
+  if (!result.keyframe_covariances.empty())
+    write_file(folder / "keyframe_covariances.csv", format_keyframe_covariances(result));
   write_file(folder / "graph_before.g2o", format_g2o(result.graph_before));
   write_file(folder / "graph_after.g2o", format_g2o(result.graph_after));
   write_file(folder / "frames.csv", format_frames_csv(result));

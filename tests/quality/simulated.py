@@ -10,10 +10,23 @@ import sys
 import time
 from pathlib import Path
 
+import keyframes
 import program
 import receivers
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+
+def check_keyframes(test, run, sequence):
+    """The covariances of keyframes are honest. Errors against the first keyframe move together along a run, so that one run says less of them."""
+    before, first = (keyframes.Honesty(test.folder / run, test.folder / sequence, name) for name in ("previous", "first"))
+    test.assertGreater(before.per_degree, 0.8, before)
+    test.assertLess(before.per_degree, 1.25, before)
+    test.assertGreater(before.coverage, 0.9, before)
+    test.assertLess(before.inflation, 1.5, before)
+    test.assertGreater(first.per_degree, 0.4, first)
+    test.assertLess(first.per_degree, 1.5, first)
+    test.assertGreater(first.coverage, 0.85, first)
 
 
 class Room(program.Quality):
@@ -26,6 +39,7 @@ class Room(program.Quality):
         self.assertEqual(evaluation["pairs"], 300)
         self.assertLessEqual(evaluation["ate_rmse_m"], 0.015)
         self.assertAlmostEqual(evaluation["ate_rmse_m"], run["ate_rmse_m"], places=9)
+        check_keyframes(self, "run", "room")
         self.check_map_reader()
 
     def check_map_reader(self):
@@ -95,6 +109,7 @@ class TurnedCamera(program.Quality):
         for term, planted in zip(found["disparities"]["terms_px"], (self.PLANTED_PX, 0, self.PLANTED_PX)):
             self.assertAlmostEqual(term, planted, delta=0.05)
         self.assertAlmostEqual(self.scale("run", "street"), 1, delta=0.002)
+        check_keyframes(self, "run", "street")
         self.figures("slam", "street", "-o", "as_calibrated", "--set", "stereo.self_calibration=off")
         self.assertGreater(self.scale("as_calibrated", "street"), 1.01)  # what there was to find
 

@@ -217,6 +217,18 @@ void BundleEquations::build_border_column(std::size_t free) {
   border_->set_camera(free, block);
 }
 
+void BundleEquations::add_gradient(std::size_t point, Eigen::Ref<Eigen::VectorXd> cameras,
+                                   Eigen::Vector3d& field) const {
+  for (std::size_t link = structure_.link_begin[point]; link < structure_.link_begin[point + 1]; ++link) {
+    Matrix6d unused = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    add_link(links_[link], unused, gradient);
+    gradient.noalias() -= link_blocks_[link] * factors_[point].h;
+    cameras.segment<6>(6 * static_cast<Eigen::Index>(structure_.link_free[link])) += gradient;
+  }
+  field += border_->point(point).gradient;
+}
+
 bool BundleEquations::solve() {
   if (border_ != nullptr) return solve_bordered();
   return structure_.free_cameras.empty() || solver_->solve(reduced_, right_, camera_step_);

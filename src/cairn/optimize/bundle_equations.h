@@ -71,6 +71,12 @@ class BundleEquations {
   /// Returns the number of disparities that are not dropped.
   [[nodiscard]] std::size_t count_disparities() const;
 
+  /// Returns the equations of the cameras alone, U - Y Y^T, as last built.
+  [[nodiscard]] const BlockMatrix& reduced_matrix() const { return reduced_; }
+  /// Adds what a point, in the structure's order, adds to the gradient of the cameras' equations, six for
+  /// each free camera, and of the border's; nothing for a point that was dropped. Needs a border.
+  void add_gradient(std::size_t point, Eigen::Ref<Eigen::VectorXd> cameras, Eigen::Vector3d& field) const;
+
  private:
   /// Holds a term of a free camera: p, and gradient and Hessian of its cost by p.
   struct Link {

@@ -9,6 +9,7 @@
 #include "cairn/core/text.h"
 #include "cairn/report/depth_noise.h"
 #include "cairn/report/json_pieces.h"
+#include "cairn/report/keyframe_report.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
 #include "cairn/report/stereo_calibration.h"
@@ -29,6 +30,12 @@ Json frames_json(const Sequence& sequence, const SlamResult& result, const Frame
       {"too_far", counts.too_far},         {"not_matched", counts.not_matched},
       {"relocalized", counts.relocalized}, {"elsewhere", counts.elsewhere},
       {"unreadable", result.unreadable}};
+}
+
+Json precision_json(const SlamResult& result) {
+  const auto last = last_keyframe_precision(result);
+  if (!last) return nullptr;
+  return {{"position_m", last->position_m}, {"rotation_deg", last->rotation_deg}};
 }
 
 Json start_json(const SlamResult& result) {
@@ -63,6 +70,7 @@ std::string format_slam_json(const Sequence& sequence, const SlamResult& result,
   json["stereo_calibration"] =
       to_json(StereoCalibrationFigures{result.row_errors, result.rows_aligned, result.disparity_calibration});
   json["depth_noise"] = to_json(result.depth_noise);
+  json["last_keyframe_precision"] = precision_json(result);
   json["graph_edges"] = result.graph_after.edges.size();
   json["ate_rmse_m"] = json_of(summary.ate_m);
   json["cloud_points"] = summary.cloud_points;

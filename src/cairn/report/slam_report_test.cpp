@@ -55,6 +55,18 @@ struct SlamRun : testing::Test {
   SlamSummary summary;
 };
 
+TEST_F(SlamRun, says_how_sure_the_last_keyframe_is) {
+  EXPECT_EQ(format_slam_text(sequence, result, summary).find("precision"), std::string::npos);
+  const auto figures_of = [&] { return nlohmann::json::parse(format_slam_json(sequence, result, summary)); };
+  EXPECT_TRUE(figures_of()["last_keyframe_precision"].is_null()) << "not adjusted as a whole";
+  result.keyframe_covariances.resize(3);
+  result.keyframe_covariances[1].from_first = 1e-4 * Matrix6d::Identity();
+  EXPECT_NEAR(figures_of()["last_keyframe_precision"]["position_m"], 0.0173205, 1e-6);
+  EXPECT_NE(format_slam_text(sequence, result, summary)
+                .find("precision    last keyframe to 0.017 m and 0.99 degrees of the first"),
+            std::string::npos);
+}
+
 TEST_F(SlamRun, has_a_row_for_each_frame) {
   EXPECT_EQ(format_frames_csv(result),
             "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n"

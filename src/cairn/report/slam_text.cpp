@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cairn/report/depth_noise.h"
+#include "cairn/report/keyframe_report.h"
 #include "cairn/report/landmark_picture.h"
 #include "cairn/report/ratio.h"
 #include "cairn/report/slam_figures.h"
@@ -57,6 +58,10 @@ void add_map(const SlamResult& result, TextBuilder& text) {
   if (!pair.empty()) text.add("{}\n", pair);
   if (const std::string depth = describe(result.depth_noise); !depth.empty()) text.add("{}\n", depth);
   if (loops.components_joined > 0) text.add("components   {} joined\n", loops.components_joined);
+  if (const auto last = last_keyframe_precision(result))
+    text.add(
+        "precision    last keyframe to {:.2g} m and {:.2g} degrees of the first (one standard deviation)\n",
+        last->position_m, last->rotation_deg);
 }
 
 void add_files(const SlamSummary& summary, TextBuilder& text) {

@@ -95,22 +95,23 @@ bool Mapper::apply_adjustment() {
   return true;
 }
 
-void Mapper::adjust_whole(std::int32_t component) {
+void Mapper::adjust_whole(std::int32_t component, SharedField field) {
   const Stopwatch watch;
   for (int round = 0; round < 2; ++round) {  // the second without the outliers of the first
     Window whole = whole_component(map_, component);
     BundleOptions options;
     const BundleReport report = adjust_bundle(whole.problem, options, executor_);
     cairn::apply_adjustment(whole, report, map_);
-    if (round > 0) keep_covariances(whole, report);
+    if (round > 0) keep_covariances(whole, report, field);
   }
   times_.global.push_back(watch.seconds());
 }
 
-void Mapper::keep_covariances(const Window& whole, const BundleReport& report) {
+void Mapper::keep_covariances(const Window& whole, const BundleReport& report, SharedField field) {
   const auto covariances = point_covariances(whole.problem, report.inlier, executor_);
   for (std::size_t p = 0; p < covariances.size(); ++p)
     covariances_[static_cast<std::size_t>(whole.points[p].value)] = covariances[p];
+  keep_keyframe_covariances(map_, whole, report.inlier, field, executor_, keyframe_covariances_);
 }
 
 /// Moves a component back to where its first keyframe was made: adjustments hold some keyframes of a window
@@ -125,15 +126,15 @@ void Mapper::put_back(std::int32_t component) {
   }
 }
 
-void Mapper::finish() {
+void Mapper::finish(SharedField field) {
   (void)apply_adjustment();
-  if (!options_.odometry) adjust_all();
+  if (!options_.odometry) adjust_all(field);
   for (std::int32_t component = 0; component < components_; ++component) put_back(component);
 }
 
-void Mapper::adjust_all() {
+void Mapper::adjust_all(SharedField field) {
   covariances_.assign(map_.landmarks().size(), Eigen::Matrix3d::Zero());
-  for (std::int32_t component = 0; component < components_; ++component) adjust_whole(component);
+  for (std::int32_t component = 0; component < components_; ++component) adjust_whole(component, field);
 }
 
 void Mapper::fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const {
@@ -153,6 +154,25 @@ void Mapper::fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& befo
   if (!before.vertices.empty()) before.fixed = {before.vertices.front().id};
   after.edges = before.edges;
   after.fixed = before.fixed;
+  place_edges(after);
+}
+
+/// Sets the edges from parents to what the adjustment says of them.
+void Mapper::place_edges(PoseGraph& graph) const {
+  const auto from_parents = static_cast<std::size_t>(
+      std::count_if(map_.keyframes().begin(), map_.keyframes().end(),
+                    [](const Keyframe& keyframe) { return keyframe.parent.valid(); }));
+  for (std::size_t i = 0; i < from_parents; ++i) {
+    PoseGraph::Edge& edge = graph.edges[i];
+    const auto k = static_cast<std::size_t>(edge.b);
+    if (k >= keyframe_covariances_.size() || !keyframe_covariances_[k].from_parent) continue;
+    const auto information = edge_information_of(*keyframe_covariances_[k].from_parent);
+    if (!information) continue;
+    const auto& vertices = graph.vertices;  // by keyframe
+    edge.a_from_b = vertices[static_cast<std::size_t>(edge.a)].world_from_vertex.inverse() *
+                    vertices[k].world_from_vertex;
+    edge.information = *information;
+  }
 }
 
 }  // namespace cairn

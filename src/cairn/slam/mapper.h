@@ -10,6 +10,7 @@
 #include "cairn/map/pose_graph.h"
 #include "cairn/slam/frame_pose.h"
 #include "cairn/slam/indexed_map.h"
+#include "cairn/slam/keyframe_covariances.h"
 #include "cairn/slam/stage_times.h"
 #include "cairn/slam/window.h"
 
@@ -41,22 +42,30 @@ class Mapper {
   /// Waits for the running adjustment, if any, and applies it. Returns whether the map moved.
   bool apply_adjustment();
   /// Applies the running adjustment, adjusts each component as a whole unless `odometry` is set, and moves
-  /// each back to where its first keyframe was made. To be called after the last frame.
-  void finish();
+  /// each back to where its first keyframe was made. To be called after the last frame. `field` says whether
+  /// a field was taken off the map's disparities.
+  void finish(SharedField field = SharedField::none);
 
   /// Returns, after finish(), the covariance of each landmark's point in the world by id, square metres, with
   /// the keyframes taken as exact; zeros if it is unknown. Empty if `odometry` is set.
   [[nodiscard]] const std::vector<Eigen::Matrix3d>& covariances() const { return covariances_; }
-  /// Fills two pose graphs of all keyframes with edges of odometry and the given `loops`: `before` has the
-  /// poses by odometry alone, `after` the present ones.
+  /// Returns, after finish(), how sure each keyframe is, by id. Empty if `odometry` is set.
+  [[nodiscard]] const std::vector<KeyframeCovariance>& keyframe_covariances() const {
+    return keyframe_covariances_;
+  }
+  /// Fills two pose graphs of all keyframes with the edge from the parent of each and the given `loops`:
+  /// `before` has the poses by odometry alone, its edges and their assumed information (edge_information),
+  /// `after` the present poses. After finish() it also has the edges between keyframes that are left as they
+  /// are placed, with the information of the adjustment.
   void fill_graphs(std::span<const PoseGraph::Edge> loops, PoseGraph& before, PoseGraph& after) const;
 
  private:
   struct Adjustment;
-  void adjust_all();
-  void adjust_whole(std::int32_t component);
+  void adjust_all(SharedField field);
+  void adjust_whole(std::int32_t component, SharedField field);
   void put_back(std::int32_t component);
-  void keep_covariances(const Window& whole, const BundleReport& report);
+  void keep_covariances(const Window& whole, const BundleReport& report, SharedField field);
+  void place_edges(PoseGraph& graph) const;
 
   const SlamOptions& options_;
   const Executor& executor_;
@@ -65,6 +74,7 @@ class Mapper {
   StageTimes& times_;
   std::unique_ptr<Adjustment> adjustment_;
   std::vector<Eigen::Matrix3d> covariances_;
+  std::vector<KeyframeCovariance> keyframe_covariances_;
   struct Step {
     Rigid3 parent_from_new;  // world_from_new of a first keyframe
     Matrix6d information;

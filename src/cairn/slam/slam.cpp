@@ -82,10 +82,11 @@ class SlamPipeline {
     calibrate();
     if (depth_noise_) finish_depths();
     result_.disparity_calibration = calibrator_.result();
-    mapper_.finish();
+    mapper_.finish(calibrator_.result().applied ? SharedField::estimated : SharedField::none);
     if (!options_.odometry) memory_.refine(indexed_.map(), options_, executor_, result_.frames);
     (void)cull_landmarks(indexed_.edit());
     result_.covariances = mapper_.covariances();
+    result_.keyframe_covariances = mapper_.keyframe_covariances();
     result_.loops = closer_.report();
     mapper_.fill_graphs(closer_.edges(), result_.graph_before, result_.graph_after);
     result_.map = indexed_.release();

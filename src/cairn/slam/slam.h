@@ -14,6 +14,7 @@
 #include "cairn/optimize/pose_graph_optimizer.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/slam/disparity_calibrator.h"
+#include "cairn/slam/keyframe_covariances.h"
 #include "cairn/slam/loop_closer.h"
 #include "cairn/slam/options.h"
 #include "cairn/slam/stage_times.h"
@@ -28,6 +29,8 @@ struct SlamResult {
   Map map;                              ///< map after the last adjustment
   /// Covariances of the landmarks' points, see Mapper::covariances.
   std::vector<Eigen::Matrix3d> covariances;
+  /// How sure each keyframe is, by id; empty if the map was not adjusted as a whole (odometry).
+  std::vector<KeyframeCovariance> keyframe_covariances;
   PoseGraph graph_before,
       graph_after;  ///< the keyframes by their neighbours and loops; before and after them
   LoopReport loops;
