@@ -112,7 +112,7 @@ class Receiver(program.Quality):
 
     def setUp(self):
         super().setUp()
-        self.cairn("simulate", "street", "-o", "street", "--frames-count", "12", "--scale", "0.25", "--quiet")
+        self.simulate("street", "street", "--frames-count", "12", "--scale", "0.25")
         self.drive = receivers.Drive(self.folder / "street")
         info = self.figures("info", "street")
         calibration = [info["camera"][name] for name in ("width", "height", "fx", "cx", "cy")] + [info["baseline_m"]]
@@ -162,7 +162,7 @@ class SmallStreet(program.Quality):
 
     def setUp(self):
         super().setUp()
-        self.cairn("simulate", "street", "-o", "street", "--frames-count", "14", "--scale", "0.25", "--quiet")
+        self.simulate("street", "street", "--frames-count", "14", "--scale", "0.25")
         self.images = [self.folder / "street" / camera for camera in ("image_0", "image_1")]
 
     def slam(self, *options):
@@ -224,7 +224,7 @@ class Small(program.Quality):
 
     def setUp(self):
         super().setUp()
-        self.cairn("simulate", "room", "-o", "room", "--frames-count", "60", "--scale", "0.5", "--quiet")
+        self.simulate("room", "room", "--frames-count", "60", "--scale", "0.5")
 
     def test_writes_the_same_bytes_at_any_number_of_threads(self):
         for threads in (1, 2, 3):
