@@ -66,7 +66,7 @@ class Loops(program.Quality):
         run = self.figures("slam", "room", "-o", "run", "--no-cloud", "--no-octree")
         self.assertEqual(run["frames"]["tracked"], 1000)
         self.assertLessEqual(run["ate_rmse_m"], 0.007)
-        self.assertLessEqual(run["peak_memory_mb"], 1500)
+        self.assertLessEqual(run["peak_memory_mb"], 200)
 
 
 class Street(program.Quality):
