@@ -79,7 +79,7 @@ class TrilinearSampler {
         coarse_(levels, is_between_ ? finest_ + 1 : finest_) {}
 
   [[nodiscard]] Channels operator()(double u, double v) const {
-    const Channels color = fine_(u, v);
+    Channels color = fine_(u, v);
     if (!is_between_) return color;
     return color + Channels::Constant(share_) * (coarse_(u, v) - color);
   }
