@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shows that each check of this folder finds what it is there to find: a good sample passes, a bad one fails."""
 
-import json
 import os
 import shutil
 import subprocess
@@ -307,58 +306,6 @@ class Tidy(Sample):
                 code, output = self.tidy(line)
                 self.assertNotEqual(code, 0)
                 self.assertIn(message, output)
-
-
-class TidyBatches(Sample):
-    """Sources that are checked together: each finding is named with its source, and none is lost."""
-
-    GOOD = "namespace {\nint one() { return 1; }\n}  // namespace\nint %s() { return one(); }\n"
-
-    def setUp(self):
-        super().setUp()
-        self.need("clang-tidy-14")
-        self.need("ctags")
-        shutil.copy(ROOT / ".clang-tidy", self.root)
-
-    def tidy(self, **sources):
-        build = self.root / "build"
-        build.mkdir(exist_ok=True)
-        for name, text in sources.items():
-            self.write(f"src/{name}.cpp", text)
-        commands = [{"directory": str(build), "file": str(self.root / f"src/{name}.cpp"),
-                     "command": f"/usr/bin/c++ -std=c++20 -o {name}.o -c {self.root}/src/{name}.cpp"} for name in sources]
-        (build / "compile_commands.json").write_text(json.dumps(commands))
-        return self.run_command(sys.executable, TESTS / "run_tidy.py", "--root", self.root, "--build", build)
-
-    def test_accepts_sources_that_define_the_same_name(self):
-        code, output = self.tidy(a=self.GOOD % "a", b=self.GOOD % "b", c="int c() { return 3; }\n")
-        self.assertEqual(code, 0, output)
-        self.assertIn("3 sources, 0 as before, 0 with findings", output)
-        batches = [path.read_text().count("#include") for path in (self.root / "build/tidy_batches").rglob("batch.cpp")]
-        self.assertEqual(sorted(batches), [1, 2])  # a with c, and b
-
-    def test_a_source_with_two_commands_passes_only_if_both_are_clean(self):
-        self.write("src/a.cpp", "#ifdef BAD\nint BadName() { return 1; }\n#endif\n")
-        self.write("src/b.cpp", "int b() { return 2; }\n")
-        build = self.root / "build"
-        build.mkdir()
-        commands = [{"directory": str(build), "file": str(self.root / f"src/{name}.cpp"),
-                     "command": f"/usr/bin/c++ -std=c++20 {flag} -o {name}{flag}.o -c {self.root}/src/{name}.cpp"}
-                    for name, flag in (("a", "-DGOOD"), ("a", "-DBAD"), ("b", "-DGOOD"), ("b", "-DBAD"))]
-        (build / "compile_commands.json").write_text(json.dumps(commands))
-        for again in ("0", "1"):
-            code, output = self.run_command(sys.executable, TESTS / "run_tidy.py", "--root", self.root, "--build", build)
-            self.assertEqual(code, 1, output)
-            self.assertIn("'BadName'", output)
-            self.assertIn(f"2 sources, {again} as before, 1 with findings", output)
-
-    def test_names_the_source_of_a_finding_and_passes_over_the_others_the_next_time(self):
-        for again in ("0", "2"):
-            code, output = self.tidy(a="int a() { return 1; }\n", b="int BigName() { return 2; }\n", c="int c() { return 3; }\n")
-            self.assertEqual(code, 1, output)
-            self.assertIn("tidy: src/b.cpp FAILED", output)
-            self.assertIn("invalid case style for function 'BigName'", output)
-            self.assertIn(f"3 sources, {again} as before, 1 with findings", output)
 
 
 class CommandLineTables(Sample):

@@ -20,6 +20,7 @@ import sys
 from pathlib import Path
 
 from batches import make_batches
+from shared_flags import share_flags
 from sources import FOLDERS, ROOT, SKIPPED, cpp_files
 
 TIDY = "clang-tidy-14"  # pinned: other versions have other checks
@@ -45,17 +46,22 @@ def sources_to_check(root, build, chosen):
     """{path: (hash, flags of each compile command)} of our sources in the compilation database."""
     common = common_hash(root)
     wanted = {Path(name).resolve() for name in chosen}
-    states, flags = {}, {}  # kernels are compiled several times: one path, several commands
+    flags = {}  # kernels are compiled several times: one path, several commands
     for entry in json.loads((build / "compile_commands.json").read_text()):
         path = Path(entry["file"]).resolve()
         if path.is_relative_to(build) or not path.is_relative_to(root) or path.relative_to(root).parts[0] not in FOLDERS:
             continue
         if wanted and path not in wanted:
             continue
-        state = states.setdefault(path, common.copy())
-        state.update(entry["command"].encode() + path.read_bytes())
         flags.setdefault(path, []).append(flags_of(entry))
-    return {path: (states[path].hexdigest(), flags[path]) for path in sorted(states)}
+    shared = share_flags({path: flags[path] for path in sorted(flags)}, root)
+    return {path: (hash_of(path, all_flags, common), all_flags) for path, all_flags in shared.items()}
+
+
+def hash_of(path, all_flags, common):
+    state = common.copy()
+    state.update("\0".join(all_flags).encode() + path.read_bytes())
+    return state.hexdigest()
 
 
 def write_batch(folder, flags, paths):

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which files are ours. Shared by the checks beside this file."""
 
+import functools
 import re
 from pathlib import Path
 
@@ -29,3 +30,10 @@ def includes_of(path, root):
         elif library:
             libraries.append(library)
     return libraries, ours
+
+
+@functools.cache
+def headers_below(path, root):
+    """Our headers that a file includes, directly or not."""
+    ours = includes_of(path, root)[1]
+    return frozenset(ours).union(*(headers_below(header, root) for header in ours))

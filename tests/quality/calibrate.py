@@ -13,7 +13,7 @@ ERRORS = ("--baseline-error", "0.5", "--pose-time-offset", "0.02", "--lever-arm-
 
 class Calibrate(program.Quality):
     def street(self, *options, scale="0.5"):
-        self.cairn("simulate", "street", "-o", "street", "--frames-count", "150", "--scale", scale, "--quiet", *options)
+        self.simulate("street", "street", "--frames-count", "150", "--scale", scale, *options)
 
     def calibrate(self, output, *options):
         figures = self.figures("calibrate", "street", "-o", output, *options)
@@ -107,7 +107,7 @@ class ShiftedDepth(program.Quality):
 
     def setUp(self):
         super().setUp()
-        self.cairn("simulate", "room", "-o", "seq", "--frames-count", "200", "--quiet")
+        self.simulate("room", "seq", "--frames-count", "200")
 
     def calibrate(self, output, *options):
         return {quantity["name"]: quantity for quantity in self.figures("calibrate", "seq", "-o", output, *options)["quantities"]}

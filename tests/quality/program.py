@@ -3,6 +3,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -11,6 +12,7 @@ from pathlib import Path
 
 TIME_LIMIT_S = 600
 SKIPPED = 77  # ctest's SKIP_RETURN_CODE
+DRAWN = {}  # what was simulated, by the arguments: temporary folders
 
 
 def recordings():
@@ -48,6 +50,16 @@ class Quality(unittest.TestCase):
     def cairn(self, *arguments, code=0, environment=None):
         """The same; what it printed to stdout."""
         return self.run_cairn(*arguments, code=code, environment=environment).stdout
+
+    def simulate(self, kind, name, *options):
+        """Makes a simulated sequence, drawn once however many tests of this process want it: each has a copy of its own."""
+        key = (kind, *map(str, options))
+        if key not in DRAWN:
+            folder = tempfile.TemporaryDirectory()
+            unittest.addModuleCleanup(folder.cleanup)
+            self.cairn("simulate", kind, "-o", Path(folder.name) / "drawn", *options, "--quiet")
+            DRAWN[key] = folder
+        shutil.copytree(Path(DRAWN[key].name) / "drawn", self.folder / name)
 
     def complaints(self, *arguments, code=0):
         """The same; what it printed to stderr."""

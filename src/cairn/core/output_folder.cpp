@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -26,6 +28,14 @@ fs::path absolute_without_link(const fs::path& target) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+/// The kind of the folder, if cairn wrote it.
+std::optional<std::string> kind_written(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / kMarker, error)) return std::nullopt;
+  const std::string marker = read_file(folder / kMarker);
+  return marker.substr(0, marker.find(':'));
+}
+
 void require_ours(const fs::path& target, std::string_view kind) {
   std::error_code error;
   if (!fs::exists(target, error)) return;
@@ -33,15 +43,11 @@ void require_ours(const fs::path& target, std::string_view kind) {
     throw InputError(
         {target.string(), 0, "a folder to write to", "a file of that name", "Choose another -o."});
   if (fs::is_empty(target, error)) return;
-  std::string found = "a folder with other contents";
-  if (fs::exists(target / kMarker, error)) {
-    const std::string marker = read_file(target / kMarker);
-    const std::string_view written = std::string_view(marker).substr(0, marker.find(':'));
-    if (written == kind) return;
-    found = fmt::format("a {} that cairn wrote", written);
-  }
+  const auto written = kind_written(target);
+  if (written == kind) return;
   throw InputError({target.string(), 0, fmt::format("a new or empty folder, or a {} that cairn wrote", kind),
-                    found, "Choose another -o; nothing in it was touched."});
+                    written ? fmt::format("a {} that cairn wrote", *written) : "a folder with other contents",
+                    "Choose another -o; nothing in it was touched."});
 }
 
 bool is_mount_point(const fs::path& path) {

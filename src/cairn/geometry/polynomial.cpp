@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/geometry/polynomial.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -82,12 +83,11 @@ std::size_t real_roots(std::span<const double> coefficients, std::span<double> r
   require(coefficients.size() >= 2 && coefficients.size() <= kMaxDegree + 1,
           "a polynomial of degree 1 to 10");
   require(roots.size() + 1 >= coefficients.size(), "room for all roots");
-  Polynomial p, reversed;
-  p.degree = reversed.degree = coefficients.size() - 1;
-  for (std::size_t i = 0; i <= p.degree; ++i) {
-    p.c[i] = coefficients[i];
-    reversed.c[p.degree - i] = coefficients[i];
-  }
+  Polynomial p;
+  p.degree = coefficients.size() - 1;
+  std::copy(coefficients.begin(), coefficients.end(), p.c.begin());
+  Polynomial reversed = p;
+  std::reverse(reversed.c.begin(), reversed.c.begin() + static_cast<std::ptrdiff_t>(coefficients.size()));
   std::size_t count = roots_in_unit_interval(p, roots);
   std::array<double, kMaxDegree> inverse{};
   const std::size_t inverse_count = roots_in_unit_interval(reversed, inverse);

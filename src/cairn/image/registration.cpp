@@ -8,6 +8,17 @@
 #include "cairn/core/error.h"
 
 namespace cairn {
+namespace {
+
+/// Half the width and height of a pixel's bounding box, a quarter of what its neighbours are apart; not
+/// finite where one of them falls nowhere.
+Eigen::Vector2d half_span_of(const Image<Eigen::Vector2d>& pixels, int u, int v) {
+  const Eigen::Vector2d along_row = pixels(u + 1, v) - pixels(u - 1, v);
+  const Eigen::Vector2d along_column = pixels(u, v + 1) - pixels(u, v - 1);
+  return 0.25 * (along_row.cwiseAbs() + along_column.cwiseAbs());
+}
+
+}  // namespace
 
 DepthImage depth_in_metres(const RawDepthImage& raw, double scale,
                            const std::vector<std::uint16_t>& invalid) {
@@ -57,9 +68,7 @@ void DepthRegistration::measure_spans() {
     pixels.data()[i] = color_camera_.project({rays_.x[i], rays_.y[i], rays_.z[i]}).value_or(none);
   for (int v = 1; v + 1 < pixels.height(); ++v) {
     for (int u = 1; u + 1 < pixels.width(); ++u) {
-      const Eigen::Vector2d along_row = pixels(u + 1, v) - pixels(u - 1, v);
-      const Eigen::Vector2d along_column = pixels(u, v + 1) - pixels(u, v - 1);
-      const Eigen::Vector2d half_span = 0.25 * (along_row.cwiseAbs() + along_column.cwiseAbs());
+      const Eigen::Vector2d half_span = half_span_of(pixels, u, v);
       const Eigen::Index i = &pixels(u, v) - pixels.data();
       if (!half_span.allFinite()) continue;
       rays_.half_u[i] = half_span.x();

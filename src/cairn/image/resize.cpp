@@ -73,6 +73,14 @@ Camera resized_camera(const Camera& camera, int width, int height) {
   return result;
 }
 
+/// One pixel of a row whose columns are still those of the image.
+std::uint8_t mix_columns(const std::vector<float>& row, const Taps& taps) {
+  float sum = 0.5F;  // rounds
+  for (std::size_t k = 0; k < taps.weights.size(); ++k)
+    sum += taps.weights[k] * row[static_cast<std::size_t>(taps.first) + k];
+  return static_cast<std::uint8_t>(std::min(sum, 255.0F));
+}
+
 GrayImage resize_image(const GrayImage& image, int width, int height) {
   require_sizes(image.width(), image.height(), width, height);
   const std::vector<Taps> columns = taps_of(image.width(), width), rows = taps_of(image.height(), height);
@@ -81,11 +89,7 @@ GrayImage resize_image(const GrayImage& image, int width, int height) {
   for (int v = 0; v < height; ++v) {
     mix_rows(image, rows[static_cast<std::size_t>(v)], mixed);
     for (int u = 0; u < width; ++u) {
-      const Taps& taps = columns[static_cast<std::size_t>(u)];
-      float sum = 0.5F;  // rounds
-      for (std::size_t k = 0; k < taps.weights.size(); ++k)
-        sum += taps.weights[k] * mixed[static_cast<std::size_t>(taps.first) + k];
-      resized(u, v) = static_cast<std::uint8_t>(std::min(sum, 255.0F));
+      resized(u, v) = mix_columns(mixed, columns[static_cast<std::size_t>(u)]);
     }
   }
   return resized;

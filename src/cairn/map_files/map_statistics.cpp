@@ -49,17 +49,21 @@ class ObservationSet {
 };
 
 /// Returns the observations in frames/.
+void add_sightings(std::int32_t keyframe, const FrameFile& frame, ObservationSet& shown) {
+  const Descriptors& descriptors = frame.observed.features.descriptors;
+  for (std::size_t f = 0; f < frame.landmarks.size(); ++f)
+    if (frame.landmarks[f].valid())
+      shown.add({{keyframe}, static_cast<std::int32_t>(f)}, frame.landmarks[f],
+                {reinterpret_cast<const char*>(descriptors.row(f)), descriptors.bytes()});
+}
+
 ObservationSet read_frames(const fs::path& folder, const MapInfo& info) {
   ObservationSet shown;
   std::uint64_t features = 0;
   for (std::int32_t i = 0; i < static_cast<std::int32_t>(info.keyframes.size()); ++i) {
     const FrameFile frame = read_frame_file(folder, info, {i});
-    const Descriptors& descriptors = frame.observed.features.descriptors;
     features += frame.landmarks.size();
-    for (std::size_t f = 0; f < frame.landmarks.size(); ++f)
-      if (frame.landmarks[f].valid())
-        shown.add({{i}, static_cast<std::int32_t>(f)}, frame.landmarks[f],
-                  {reinterpret_cast<const char*>(descriptors.row(f)), descriptors.bytes()});
+    add_sightings(i, frame, shown);
   }
   if (features != info.features)
     fail(folder / kMapInfoFile, fmt::format("{} features, as the files in frames/ have", features),

@@ -123,9 +123,9 @@ struct Plane {
       keypoint.u += static_cast<float>(random.uniform(-0.5, 0.5) - kDisparity);
       keypoint.v += static_cast<float>(random.uniform(-1, 1));
       right.keypoints.push_back(keypoint);
-      for (std::size_t b = 0; b < 32; ++b)
-        left.descriptors.row(i)[b] = right.descriptors.row(i)[b] =
-            static_cast<std::uint8_t>(random.index(256));
+      std::generate_n(left.descriptors.row(i), 32,
+                      [&] { return static_cast<std::uint8_t>(random.index(256)); });
+      std::copy_n(left.descriptors.row(i), 32, right.descriptors.row(i));
     }
   }
 };

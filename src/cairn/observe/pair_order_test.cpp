@@ -30,13 +30,18 @@ Sequence exchanged(Sequence sequence) {
 class PairOrderTest : public testing::Test, protected RecordingFolder {
  protected:
   /// Three pairs of a surface; contrast 0: without texture.
-  [[nodiscard]] Sequence pairs_of(const testkit::Surface& surface, double contrast) const {
+  [[nodiscard]] Sequence without_pairs() const {
     Sequence sequence;
     sequence.folder = folder_;
     sequence.format = "KITTI";
     sequence.calibration.camera = {CameraModel::pinhole, kWidth, kHeight, 260, 260, 160, 120, {}};
     sequence.calibration.baseline = 0.5;
     sequence.calibration_source = "calib.txt";
+    return sequence;
+  }
+
+  [[nodiscard]] Sequence pairs_of(const testkit::Surface& surface, double contrast) const {
+    Sequence sequence = without_pairs();
     for (int i = 0; i < 3; ++i) {
       const testkit::Waves waves(8, contrast, static_cast<std::uint64_t>(i));
       const testkit::TestPair pair = testkit::make_pair(kWidth, kHeight, surface, waves, 1, 1);

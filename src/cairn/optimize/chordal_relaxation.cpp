@@ -82,12 +82,16 @@ Eigen::Quaterniond nearest_rotation(const Eigen::Matrix3d& matrix) {
   return Eigen::Quaterniond(u * svd.v.transpose()).normalized();
 }
 
+std::vector<Eigen::Matrix3d> transposed_rotations(const std::vector<Rigid3>& poses) {
+  std::vector<Eigen::Matrix3d> transposed;
+  for (const auto& pose : poses) transposed.emplace_back(pose.rotation.conjugate().toRotationMatrix());
+  return transposed;
+}
+
 /// First step, over X = R^T: X_b = R_ab^T X_a.
 bool relax_rotations(const PoseGraph& graph, const PoseGraphStructure& structure,
                      std::vector<Rigid3>& poses) {
-  std::vector<Eigen::Matrix3d> transposed;
-  for (const auto& pose : poses) transposed.emplace_back(pose.rotation.conjugate().toRotationMatrix());
-  BlockLeastSquares<3> problem(std::move(transposed), structure.held);
+  BlockLeastSquares<3> problem(transposed_rotations(poses), structure.held);
   for (std::size_t k = 0; k < structure.ends.size(); ++k) {
     const auto& edge = graph.edges[k];
     const auto [a, b] = structure.ends[k];

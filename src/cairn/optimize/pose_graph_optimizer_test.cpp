@@ -38,13 +38,16 @@ void join(Scene& scene, std::size_t a, std::size_t b, const Rigid3& error, bool 
 
 /// Two rounds of a circle, 50 poses each, with noisy odometry and noisy loops from the second round to the
 /// first; the given poses are the odometry's. Ids are 100, 101, ..
+Rigid3 on_a_helix(int i) {
+  const double angle = 2 * std::numbers::pi * i / 50;
+  return {rotation_exp({0, 0, angle}), {5 * std::cos(angle), 5 * std::sin(angle), 0.02 * i}};
+}
+
 Scene two_rounds(std::uint64_t seed) {
   Random random(seed);
   Scene scene;
   for (int i = 0; i < 100; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 50;
-    scene.truth.push_back(
-        {rotation_exp({0, 0, angle}), {5 * std::cos(angle), 5 * std::sin(angle), 0.02 * i}});
+    scene.truth.push_back(on_a_helix(i));
     scene.graph.vertices.push_back({100 + i, scene.truth.back()});
   }
   for (std::size_t i = 1; i < 100; ++i) {

@@ -60,6 +60,15 @@ Names names_of(const std::vector<fs::path>& images) {
 
 /// The names 000000.png ... of `count` pairs, of which some are missing on disk: where all names there are
 /// positions among them. Nothing otherwise.
+/// Names the empty places of a list by their number, as `pattern` is.
+void fill_places(const fs::path& pattern, std::vector<std::string>& by_position) {
+  for (std::size_t i = 0; i < by_position.size(); ++i) {
+    if (by_position[i].empty())
+      by_position[i] =
+          fmt::format("{:0{}}{}", i, pattern.stem().string().size(), pattern.extension().string());
+  }
+}
+
 std::optional<Names> names_by_position(const Names& names, std::size_t count) {
   std::vector<std::string> by_position(count);
   for (const std::string& name : names) {
@@ -69,12 +78,7 @@ std::optional<Names> names_by_position(const Names& names, std::size_t count) {
     if (!place.empty()) return std::nullopt;
     place = name;
   }
-  const fs::path pattern = *names.begin();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (by_position[i].empty())
-      by_position[i] =
-          fmt::format("{:0{}}{}", i, pattern.stem().string().size(), pattern.extension().string());
-  }
+  fill_places(*names.begin(), by_position);
   return Names(by_position.begin(), by_position.end());
 }
 
@@ -129,15 +133,19 @@ void read_rig(const fs::path& path, Calibration& calibration) {
   calibration.baseline = baseline;
 }
 
+std::int64_t read_time(const TextFile& file, const TextLine& line) {
+  file.expect_fields(line, 1, "seconds");
+  std::int64_t stamp_ns = 0;
+  if (!parse_stamp(line.fields[0], stamp_ns))
+    file.fail(line, "a time in seconds", fmt::format("'{}'", line.fields[0]), "Correct the line.");
+  return stamp_ns;
+}
+
 std::vector<std::int64_t> read_times(const fs::path& path) {
   const TextFile file(path);
   std::vector<std::int64_t> stamps;
   for (const TextLine& line : file.lines()) {
-    file.expect_fields(line, 1, "seconds");
-    std::int64_t stamp_ns = 0;
-    if (!parse_stamp(line.fields[0], stamp_ns)) {
-      file.fail(line, "a time in seconds", fmt::format("'{}'", line.fields[0]), "Correct the line.");
-    }
+    const std::int64_t stamp_ns = read_time(file, line);
     if (!stamps.empty() && stamp_ns <= stamps.back()) {
       file.fail(line, fmt::format("a time after {}", format_stamp(stamps.back())), format_stamp(stamp_ns),
                 "Sort the times; each image needs its own.");

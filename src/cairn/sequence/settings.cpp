@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -45,6 +46,13 @@ std::optional<Setting> split(std::string_view line, const std::string& source, i
                  number};
 }
 
+Setting setting_of(std::string_view line, const std::string& source, int number) {
+  auto setting = split(line, source, number);
+  if (!setting)
+    throw InputError({source, number, "key=value", fmt::format("'{}'", line), "Correct or delete the line."});
+  return *std::move(setting);
+}
+
 std::vector<Setting> read_lines(std::string_view text, const std::string& source) {
   std::vector<Setting> settings;
   int number = 0;
@@ -54,11 +62,7 @@ std::vector<Setting> read_lines(std::string_view text, const std::string& source
     ++number;
     begin = end + 1;
     if (line.empty()) continue;
-    const auto setting = split(line, source, number);
-    if (!setting)
-      throw InputError(
-          {source, number, "key=value", fmt::format("'{}'", line), "Correct or delete the line."});
-    settings.push_back(*setting);
+    settings.push_back(setting_of(line, source, number));
   }
   return settings;
 }

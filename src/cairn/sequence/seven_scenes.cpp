@@ -47,12 +47,15 @@ bool is_no_number(std::string_view text) {
   return lower == "nan" || lower == "inf";
 }
 
-/// Nothing where one of its numbers is NaN or infinite.
-std::optional<Eigen::Matrix4d> read_matrix(const TextFile& file) {
-  if (file.lines().size() != 4) {
+void expect_four_lines(const TextFile& file) {
+  if (file.lines().size() != 4)
     throw InputError({file.path().string(), 0, "4 lines, a 4x4 matrix",
                       fmt::format("{} lines", file.lines().size()), "Correct or delete the file."});
-  }
+}
+
+/// Nothing where one of its numbers is NaN or infinite.
+std::optional<Eigen::Matrix4d> read_matrix(const TextFile& file) {
+  expect_four_lines(file);
   bool finite = true;
   Eigen::Matrix4d matrix;
   for (std::size_t i = 0; i < 16; ++i) {

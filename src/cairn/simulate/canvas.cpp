@@ -44,13 +44,18 @@ void add_octave_row(float* row, int width, double y, double cells_per_texel, flo
   }
 }
 
-Image<float> fractal_noise(int width, int height, double texel, const NoiseStyle& style, float deviation,
-                           std::uint64_t seed) {
-  Image<float> field(width, height);
+/// Amplitude of the first octave, so that all together have the deviation.
+double first_amplitude(const NoiseStyle& style, float deviation) {
   double power = 0;
   for (int i = 0; i < style.octaves; ++i) power += std::pow(style.gain, 2 * i);
   constexpr double kUnitDeviation = 0.41;  // of interpolated uniform noise in [-1, 1)
-  const double first = deviation / (kUnitDeviation * std::sqrt(power));
+  return deviation / (kUnitDeviation * std::sqrt(power));
+}
+
+Image<float> fractal_noise(int width, int height, double texel, const NoiseStyle& style, float deviation,
+                           std::uint64_t seed) {
+  Image<float> field(width, height);
+  const double first = first_amplitude(style, deviation);
   for (int i = 0; i < style.octaves; ++i) {
     const double cells_per_texel = texel / style.cell * (1 << i);
     if (cells_per_texel > 0.5) break;
@@ -60,6 +65,16 @@ Image<float> fractal_noise(int width, int height, double texel, const NoiseStyle
                      seed + static_cast<std::uint64_t>(i) * 0x51ed270b);
   }
   return field;
+}
+
+/// Which share of the light each texel of a line loses, by its distance from the nearer end.
+std::vector<float> border_shares(int count, double texel, double share, double reach) {
+  std::vector<float> lost(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double distance = (std::min(i, count - 1 - i) + 0.5) * texel;
+    lost[static_cast<std::size_t>(i)] = static_cast<float>(share * std::exp(-distance / reach));
+  }
+  return lost;
 }
 
 std::uint8_t to_byte(float value) {
@@ -121,15 +136,8 @@ void Canvas::scale(float brightness) {
 }
 
 void Canvas::shade_borders(double share, double reach) {
-  const auto shares = [&](int count, double texel) {
-    std::vector<float> lost(static_cast<std::size_t>(count));
-    for (int i = 0; i < count; ++i) {
-      const double distance = (std::min(i, count - 1 - i) + 0.5) * texel;
-      lost[static_cast<std::size_t>(i)] = static_cast<float>(share * std::exp(-distance / reach));
-    }
-    return lost;
-  };
-  const auto columns = shares(image_.width(), texel_.x()), rows = shares(image_.height(), texel_.y());
+  const auto columns = border_shares(image_.width(), texel_.x(), share, reach);
+  const auto rows = border_shares(image_.height(), texel_.y(), share, reach);
   for (int v = 0; v < image_.height(); ++v) {
     for (int u = 0; u < image_.width(); ++u) {
       const float lost = columns[static_cast<std::size_t>(u)] + rows[static_cast<std::size_t>(v)];

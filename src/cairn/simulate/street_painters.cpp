@@ -72,6 +72,13 @@ void draw_courses(Canvas& canvas, double brick_height, float opacity) {
 }
 
 /// Ground floor: shop windows with a sign over them, or a plain wall, and a door.
+void draw_door(Canvas& canvas, double left, Random& random) {
+  const double bottom = canvas.height();
+  canvas.draw(rectangle({left - 0.08, bottom - 2.2}, {left + 1.08, bottom}, {214, 208, 196}));
+  canvas.draw(rectangle({left, bottom - 2.1}, {left + 1.0, bottom}, random_color(random, 0.8F, 30, 140)));
+  canvas.scatter({10, 0.05, 0.2, 0.6F, 0.5F}, {left + 0.1, bottom - 2}, {left + 0.9, bottom - 0.2}, random);
+}
+
 void draw_ground_floor(Canvas& canvas, double ceiling, Random& random) {
   const double bottom = canvas.height();
   const double door = random.uniform(0.4, canvas.width() - 1.5);
@@ -85,9 +92,14 @@ void draw_ground_floor(Canvas& canvas, double ceiling, Random& random) {
     for (double x = 0.6; x + 1.1 < canvas.width(); x += random.uniform(1.9, 2.9))
       draw_window(canvas, {x, ceiling + 0.8}, {x + 1.0, bottom - 0.9}, random);
   }
-  canvas.draw(rectangle({door - 0.08, bottom - 2.2}, {door + 1.08, bottom}, {214, 208, 196}));
-  canvas.draw(rectangle({door, bottom - 2.1}, {door + 1.0, bottom}, random_color(random, 0.8F, 30, 140)));
-  canvas.scatter({10, 0.05, 0.2, 0.6F, 0.5F}, {door + 0.1, bottom - 2}, {door + 0.9, bottom - 0.2}, random);
+  draw_door(canvas, door, random);
+}
+
+void draw_floor(Canvas& canvas, double floor, double pitch, double width, Random& random) {
+  for (double x = pitch / 4; x + width < canvas.width() - 0.2; x += pitch)
+    draw_window(canvas, {x, floor - 2.2}, {x + width, floor - 0.8}, random);
+  canvas.draw(
+      rectangle({0, floor - 0.1}, {canvas.width(), floor + 0.1}, random_color(random, 0.2F, 130, 230)));
 }
 
 }  // namespace
@@ -119,12 +131,8 @@ Painter house_front() {
     canvas.scatter({3, 0.03, 0.2, 0.5F, 0.3F}, random);
     const double pitch = random.uniform(1.8, 2.8), width = random.uniform(0.9, 1.3);
     const double ground_ceiling = canvas.height() - kFloor;
-    for (double floor = ground_ceiling; floor > kFloor * 0.8; floor -= kFloor) {
-      for (double x = pitch / 4; x + width < canvas.width() - 0.2; x += pitch)
-        draw_window(canvas, {x, floor - 2.2}, {x + width, floor - 0.8}, random);
-      canvas.draw(
-          rectangle({0, floor - 0.1}, {canvas.width(), floor + 0.1}, random_color(random, 0.2F, 130, 230)));
-    }
+    for (double floor = ground_ceiling; floor > kFloor * 0.8; floor -= kFloor)
+      draw_floor(canvas, floor, pitch, width, random);
     draw_ground_floor(canvas, ground_ceiling, random);
     canvas.shade_borders(0.35, 0.15);
   };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "cairn/image/image.h"
@@ -15,7 +16,12 @@ using Color = Eigen::Vector3f;
 /// aliased if seen from afar. Immutable; safe to sample from several threads.
 class Texture {
  public:
-  explicit Texture(RgbImage picture);
+  explicit Texture(const RgbImage& picture);
+
+  /// Holds a pixel in four bytes, so that its channels are computed side by side.
+  struct Texel {
+    std::uint8_t r = 0, g = 0, b = 0, unused = 0;
+  };
 
   [[nodiscard]] int width() const { return levels_.front().width(); }
   [[nodiscard]] int height() const { return levels_.front().height(); }
@@ -28,10 +34,7 @@ class Texture {
                              const Eigen::Vector2d& step_y) const;
 
  private:
-  [[nodiscard]] Color sample_trilinear(const Eigen::Vector2d& position, double level) const;
-  [[nodiscard]] Color sample_bilinear(const Eigen::Vector2d& position, int level) const;
-
-  std::vector<RgbImage> levels_;
+  std::vector<Image<Texel>> levels_;
 };
 
 }  // namespace cairn
