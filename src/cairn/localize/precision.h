@@ -17,7 +17,8 @@ struct Precision {
   /// Covariance of the left perturbation, within the map: of the poses that the map's own are. By noise, plus
   /// what all landmarks of the place have in common, if the map knows (CommonErrors).
   Matrix6d covariance = Matrix6d::Zero();
-  /// Covariance in the world that the poses which made the map are given in; nullopt if the map does not know.
+  /// Covariance in the world that the poses which made the map are given in; nullopt if the map does not
+  /// know.
   std::optional<Matrix6d> absolute;
   /// Dilution of precision: the standard deviations if every observation were wrong by a pixel (1 px in u, v
   /// and d) and the landmarks exact; radians and metres per pixel. gdop is the root of the sum of squares of

@@ -29,7 +29,8 @@ Vector6d six_numbers(const TextFile& file, const TextLine& line, std::size_t fir
 }  // namespace
 
 std::string format_held_out(std::span<const HeldOutFrame> frames) {
-  std::string text = fmt::format("# {}  (radians and metres, of camera_from_world, camera's axes)\n", kLayout);
+  std::string text =
+      fmt::format("# {}  (radians and metres, of camera_from_world, camera's axes)\n", kLayout);
   for (const HeldOutFrame& frame : frames) {
     std::string line = fmt::format("{}", frame.keyframe.value);
     for (const Vector6d* values : {&frame.to_map, &frame.to_given, &frame.formal, &frame.stated})

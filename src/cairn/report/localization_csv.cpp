@@ -91,7 +91,8 @@ std::string format_localization_csv(const std::vector<LocalizedImage>& images,
       "# Poses are world_from_camera. Axes of dop, std, protection (exceeded with probability 1e-3) and cov "
       "are the camera's: x right, y down, z forward; rx ry rz are rotations about them. cov in radians and "
       "metres: of the left perturbation (rx ry rz x y z) of camera_from_world. std, protection and cov are "
-      "within the map, abs_std and abs_cov in the world of the poses that made it; empty: not known. Pixels are those of images of " +
+      "within the map, abs_std and abs_cov in the world of the poses that made it; empty: not known. Pixels "
+      "are those of images of " +
       summary.camera + ". stamp_s: " + summary.stamps + ".\n" + format_header();
   for (const LocalizedImage& image : images) text += format_row(image);
   return text;

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kTimes = "times";
 
-/// Adds what is said of poses, if there are any. Without held-out frames the covariance knows noise alone, and
-/// the text says so.
+/// Adds what is said of poses, if there are any. Without held-out frames the covariance knows noise alone,
+/// and the text says so.
 void add_precision(const std::vector<LocalizedImage>& images, TextBuilder& text) {
   const auto inliers = median_inliers(images), std_m = median_std_m(images);
   if (!inliers || !std_m) return;

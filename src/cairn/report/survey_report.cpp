@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "cairn/report/depth_noise.h"
 #include "cairn/report/json_pieces.h"
@@ -29,6 +30,43 @@ Json to_json(const PoseCheck& check) {
           {"error_px", std::isfinite(check.error_px) ? Json(check.error_px) : Json()}};
 }
 
+/// Holds the root mean squares by which held-out frames were missed: position (metres), rotation (degrees).
+struct HeldOutFigures {
+  std::size_t frames = 0;
+  double to_map_m = 0, to_map_deg = 0, to_given_m = 0, to_given_deg = 0;
+};
+
+HeldOutFigures held_out_figures(const std::vector<HeldOutFrame>& frames) {
+  Vector6d to_map = Vector6d::Zero(), to_given = Vector6d::Zero();
+  for (const HeldOutFrame& frame : frames) {
+    to_map += frame.to_map.cwiseAbs2();
+    to_given += frame.to_given.cwiseAbs2();
+  }
+  const double count = std::max(1.0, static_cast<double>(frames.size()));
+  const auto rms = [&](const auto& squares) { return std::sqrt(squares.sum() / count); };
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  return {frames.size(), rms(to_map.tail<3>()), kDegrees * rms(to_map.head<3>()), rms(to_given.tail<3>()),
+          kDegrees * rms(to_given.head<3>())};
+}
+
+Json to_json(const HeldOutFigures& figures) {
+  return {{"frames", figures.frames},
+          {"to_map_rms_m", figures.to_map_m},
+          {"to_map_rms_deg", figures.to_map_deg},
+          {"to_given_rms_m", figures.to_given_m},
+          {"to_given_rms_deg", figures.to_given_deg}};
+}
+
+/// Returns a line, or nothing if no frame was held out.
+std::string describe(const HeldOutFigures& figures) {
+  if (figures.frames == 0) return {};
+  return fmt::format(
+      "held out     {} frames, located without their own observations: {:.2g} cm and {:.2g} degrees from\n"
+      "             their poses in the map, {:.2g} cm and {:.2g} degrees from the given ones (RMS)\n",
+      figures.frames, 100 * figures.to_map_m, figures.to_map_deg, 100 * figures.to_given_m,
+      figures.to_given_deg);
+}
+
 Json to_json(const SurveyResult& result) {
   const SurveyCounts& counts = result.counts;
   Json json;
@@ -46,7 +84,12 @@ Json to_json(const SurveyResult& result) {
   json["landmarks"] = counts.landmarks;
   json["sightings"] = counts.observations;
   json["dropped_sightings"] = counts.dropped_observations;
-  json["noise"] = {{"variance_factor", result.noise.scale}, {"degrees_of_freedom", result.noise.freedom}};
+  for (std::size_t i = 0; i < kBeyondPx.size(); ++i)
+    json["share_beyond_px"][fmt::format("{}", kBeyondPx[i])] = ratio(counts.beyond[i], counts.observations);
+  json["noise"] = {{"variance_factor", result.noise.scale},
+                   {"degrees_of_freedom", result.noise.freedom},
+                   {"shared_share", result.shared_share}};
+  json["held_out"] = to_json(held_out_figures(result.held_out));
   json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
   json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},
                          {"by_poses_rms_m", result.pose_std_rms_m},
@@ -129,6 +172,7 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
   text.add("cleaning     {}; {} merged\n", describe_cleaning(counts), counts.merged);
   text.add("landmarks    {}, in {:.1f} frames each\n", counts.landmarks,
            ratio(counts.observations, counts.landmarks));
+  text.add("{}", describe(held_out_figures(result.held_out)));
   const std::string by_poses = result.pose_std_rms_m > 0
                                    ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
                                    : "none stated of the poses";

@@ -156,6 +156,7 @@ void put(const SurveyLandmark& landmark, ByteWriter& writer) {
   writer.put(landmark.squared_error_sum);
   writer.put(landmark.redundancy);
   writer.put(landmark.variance_factor);
+  writer.put(landmark.shared_factor);
   put_matrix(landmark.pose_covariance, writer);
   put(landmark.indicators, writer);
 }
@@ -167,6 +168,7 @@ void get(BinaryReader& reader, SurveyLandmark& landmark) {
   landmark.squared_error_sum = reader.get<double>();
   landmark.redundancy = reader.get<int>();
   landmark.variance_factor = reader.get<double>();
+  landmark.shared_factor = reader.get<double>();
   get_matrix(reader, landmark.pose_covariance);
   get(reader, landmark.indicators);
 }
@@ -185,6 +187,7 @@ std::vector<std::int64_t*> fields_of(SurveyCounts& counts) {
                                     &counts.inconsistent,
                                     &counts.dropped_observations};
   for (std::int64_t& cleaned : counts.cleaned) fields.push_back(&cleaned);
+  for (std::int64_t& beyond : counts.beyond) fields.push_back(&beyond);
   fields.insert(fields.end(),
                 {&counts.merged, &counts.landmarks, &counts.observations, &counts.dominated_by_poses});
   return fields;
@@ -204,6 +207,20 @@ VarianceModel::Sums get_sums(BinaryReader& reader) {
   VarianceModel::Sums sums;
   sums.count = reader.get<std::int64_t>();
   for (double* value : {&sums.log, &sums.log_squared, &sums.noise}) *value = reader.get<double>();
+  return sums;
+}
+
+void put(const SharedErrorModel::Sums& sums, ByteWriter& writer) {
+  writer.put(sums.count);
+  writer.put(sums.log);
+  writer.put(sums.observations);
+}
+
+SharedErrorModel::Sums get_shared_sums(BinaryReader& reader) {
+  SharedErrorModel::Sums sums;
+  sums.count = reader.get<std::int64_t>();
+  sums.log = reader.get<double>();
+  sums.observations = reader.get<double>();
   return sums;
 }
 
@@ -252,6 +269,7 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   get(reader, state.held_out);
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
+  state.shared = SharedErrorModel(get_shared_sums(reader));
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
   for (double* sum : sums_of(state.counts)) *sum = reader.get<double>();
   const auto count = reader.get<std::uint64_t>();
@@ -278,6 +296,7 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   put(state.held_out, writer);
   put(state.pending, writer);
   put(state.variance.sums(), writer);
+  put(state.shared.sums(), writer);
   SurveyCounts counts = state.counts;
   for (const std::int64_t* field : fields_of(counts)) writer.put(*field);
   for (const double* sum : sums_of(counts)) writer.put(*sum);

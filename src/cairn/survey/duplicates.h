@@ -12,7 +12,7 @@ namespace cairn {
 struct MergeInput {
   const Rig& rig;
   const FrameBuffer& frames;
-  const VariancePrior& prior;
+  const NoisePrior& prior;
   const SurveyOptions& options;
 };
 

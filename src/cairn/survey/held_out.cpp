@@ -38,8 +38,7 @@ bool is_held_out(KeyframeId frame) {
   return frame.value % kEvery == kFirst;
 }
 
-HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const VariancePrior& prior,
-                 FrameBuffer& frames)
+HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const NoisePrior& prior, FrameBuffer& frames)
     : prior_(prior), frames_(frames), cameras_(frames.camera_poses()), solver_(rig, cameras_, options.fit) {}
 
 void HoldOut::add(const SurveyLandmark& landmark) {
@@ -47,7 +46,9 @@ void HoldOut::add(const SurveyLandmark& landmark) {
     if (!is_held_out(observation.keyframe)) continue;
     solver_.fit(observations_without(frames_, landmark, observation.keyframe), fit_);
     if (fit_.status != LandmarkFitStatus::ok) continue;
-    const Eigen::Matrix3d own = prior_.factor(fit_.squared_error_sum, fit_.redundancy) * fit_.covariance;
+    const double factor = prior_.variance.factor(fit_.squared_error_sum, fit_.redundancy) *
+                          prior_.shared.factor(static_cast<int>(landmark.observations.size()) - 1);
+    const Eigen::Matrix3d own = factor * fit_.covariance;
     frames_[observation.keyframe].held_out.push_back(
         {observation.feature, fit_.point_in_world, own + landmark.pose_covariance});
   }

@@ -17,12 +17,12 @@ namespace cairn {
 class HoldOut {
  public:
   /// Refers to its arguments, which must outlive it.
-  HoldOut(const Rig& rig, const SurveyOptions& options, const VariancePrior& prior, FrameBuffer& frames);
+  HoldOut(const Rig& rig, const SurveyOptions& options, const NoisePrior& prior, FrameBuffer& frames);
 
   void add(const SurveyLandmark& landmark);
 
  private:
-  const VariancePrior& prior_;
+  const NoisePrior& prior_;
   FrameBuffer& frames_;
   std::vector<CameraFromWorld> cameras_;
   LandmarkSolver solver_;

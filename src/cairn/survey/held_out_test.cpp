@@ -26,7 +26,7 @@ class HeldOut : public testing::Test {
   }
   void hold_out() {
     const SurveyOptions options;
-    const VariancePrior prior{1e3, 1};
+    const NoisePrior prior{{1e3, 1}, {}};
     HoldOut hold_out(kDriveRig, options, prior, frames_);
     for (const SurveyLandmark& landmark : landmarks_) hold_out.add(landmark);
   }
@@ -53,7 +53,8 @@ TEST_F(HeldOut, landmarks_are_solved_without_the_frame) {
 
 TEST_F(HeldOut, landmarks_that_need_the_frame_are_left_out) {
   make(2);
-  landmarks_[1].observations = testkit::observations_of(1, 6, 8);  // three frames, as many as a landmark needs
+  landmarks_[1].observations =
+      testkit::observations_of(1, 6, 8);  // three frames, as many as a landmark needs
   hold_out();
   ASSERT_EQ(frames_[kHeldOut].held_out.size(), 1U);
   EXPECT_EQ(frames_[kHeldOut].held_out[0].feature, 0);

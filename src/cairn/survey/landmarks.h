@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cairn/map/indicators.h"
+#include "cairn/survey/shared_error.h"
 #include "cairn/survey/tracks.h"
 #include "cairn/survey/variance_model.h"
 
@@ -21,6 +22,10 @@ struct SurveyLandmark {
   double squared_error_sum = 0;  ///< over the observations, in units of their standard deviations
   int redundancy = 0;            ///< number of measured values minus the three of the point
   double variance_factor = 1;    ///< a posteriori, see VarianceModel
+  double shared_factor = 1;      ///< for what the observations have in common, see SharedErrorModel
+  /// Squared difference of the points by the first and the second half of the observations, in units of its
+  /// covariance, divided by 3; 0 if the halves are too short. Not scaled by the variance factor.
+  double half_difference = 0;
   /// What the errors of the given poses add, square metres.
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
   LandmarkIndicators indicators;
@@ -29,7 +34,9 @@ struct SurveyLandmark {
   /// errors of poses move neighbouring landmarks alike.
   [[nodiscard]] Eigen::Matrix3d own_covariance() const { return variance_factor * cofactor; }
   /// Returns the covariance of the point in the world, square metres.
-  [[nodiscard]] Eigen::Matrix3d covariance() const { return own_covariance() + pose_covariance; }
+  [[nodiscard]] Eigen::Matrix3d covariance() const {
+    return shared_factor * own_covariance() + pose_covariance;
+  }
 };
 
 /// Holds the landmarks made of tracks, and counts the tracks of which none was made.
@@ -58,12 +65,18 @@ struct AdjustedTracks {
                                                      std::span<const CameraFromWorld> cameras,
                                                      std::span<const ObservationRef> observations);
 
-/// Sets the variance factor and, if `pose_errors` is true, what the errors of the given poses add to the
-/// covariance, zero if they state none. GNSS/INS errors change slowly, so that the poses of one landmark err
-/// alike: the mean of what each pose alone would add, dX = c + w x (X - p) with PoseUncertainty's (c, w),
-/// does not shrink with the number of frames. What changes from frame to frame is in the residuals, and so in
-/// the variance factor.
-void complete_covariance(const FrameBuffer& frames, const VariancePrior& prior, bool pose_errors,
+/// Holds what is known of the noise of all landmarks' observations.
+struct NoisePrior {
+  VariancePrior variance;
+  SharedErrorModel shared;
+};
+
+/// Sets the variance factor, the shared factor and, if `pose_errors` is true, what the errors of the given
+/// poses add to the covariance, zero if they state none. GNSS/INS errors change slowly, so that the poses of
+/// one landmark err alike: the mean of what each pose alone would add, dX = c + w x (X - p) with
+/// PoseUncertainty's (c, w), does not shrink with the number of frames. What changes from frame to frame is
+/// in the residuals, and so in the variance factor.
+void complete_covariance(const FrameBuffer& frames, const NoisePrior& prior, bool pose_errors,
                          SurveyLandmark& landmark);
 
 }  // namespace cairn

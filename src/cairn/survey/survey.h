@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -21,6 +22,9 @@
 
 namespace cairn {
 
+/// Limits of SurveyCounts::beyond, pixels.
+inline constexpr std::array<int, 3> kBeyondPx{2, 4, 10};
+
 /// Counts what became of frames, features and landmarks.
 struct SurveyCounts {
   std::int64_t frames = 0;                ///< frames in the map
@@ -38,6 +42,9 @@ struct SurveyCounts {
   std::int64_t merged = 0;                ///< landmarks merged with another one
   std::int64_t landmarks = 0;             ///< landmarks in the map
   std::int64_t observations = 0;          ///< observations of landmarks in the map
+  /// Observations of landmarks in the map that lie, by the map's poses, more than kBeyondPx pixels from where
+  /// the landmark is projected to.
+  std::array<std::int64_t, 3> beyond = {};
   /// Landmarks in the map to which the poses' stated deviations add more than the images leave open.
   std::int64_t dominated_by_poses = 0;
   /// Sums over the landmarks in the map of the variance along the worst direction, square metres: from the
@@ -64,15 +71,16 @@ struct SurveyResult {
   SurveyCounts counts;
   SurveyTimes times;            ///< of this run, without runs that it resumes
   std::int64_t resumed_at = 0;  ///< frames of the sequence that earlier runs processed; 0 for a new run
+  double shared_share = 0;      ///< of the observations' variance, see SharedErrorModel
   VariancePrior noise;  ///< how noisy the observations are, in units of the assumed standard deviations
   double moved_rms_m = 0, turned_rms_deg = 0;  ///< RMS change of poses by smoothing
   /// Root mean square over the landmarks of their standard deviation along the worst direction, metres: from
   /// the images, and from the poses' stated deviations.
   double image_std_rms_m = 0, pose_std_rms_m = 0;
-  StatedDeviations stated;    ///< of the given poses
+  StatedDeviations stated;             ///< of the given poses
   std::vector<HeldOutFrame> held_out;  ///< frames that were located without their observations
-  RowErrors row_errors;       ///< of the right images; all zero if they were not measured
-  bool rows_aligned = false;  ///< whether the right images were loaded with their rows corrected
+  RowErrors row_errors;                ///< of the right images; all zero if they were not measured
+  bool rows_aligned = false;           ///< whether the right images were loaded with their rows corrected
   DisparityCalibration disparity_calibration;  ///< of a stereo pair, by the given poses
   /// Of an RGB-D sequence, by the given poses: how sure its disparities are, and how many say so; 0 if it is
   /// stated or assumed.

@@ -30,8 +30,19 @@ std::int64_t count_measured(const ObservedFrame& observed) {
                        [](const Observation& seen) { return seen.has_disparity(); });
 }
 
+/// Counts the observations that lie far from where the landmark is projected to.
+void count_residuals(const Rig& rig, const FrameBuffer& frames, const SurveyLandmark& landmark,
+                     SurveyCounts& counts) {
+  for (const ObservationRef& observation : landmark.observations) {
+    const Observation& seen = observation_of(frames, observation);
+    const Eigen::Vector3d point = frames[observation.keyframe].camera_from_world * landmark.point_in_world;
+    const double off = (rig.project(point).head<2>() - Eigen::Vector2d(seen.u, seen.v)).norm();
+    for (std::size_t i = 0; i < kBeyondPx.size(); ++i) counts.beyond[i] += off > kBeyondPx[i] ? 1 : 0;
+  }
+}
+
 void count_uncertainty(const SurveyLandmark& landmark, SurveyCounts& counts) {
-  const double by_images = largest_std(landmark.own_covariance()),
+  const double by_images = largest_std(landmark.shared_factor * landmark.own_covariance()),
                by_poses = largest_std(landmark.pose_covariance);
   counts.image_variance_m2 += by_images * by_images;
   counts.pose_variance_m2 += by_poses * by_poses;
@@ -151,20 +162,25 @@ void Surveyor::adjust_settled_tracks(const Executor& executor) {
     state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
   std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
   times_.adjustment += watch.lap();
-  const VariancePrior prior = state_.variance.prior();
+  const NoisePrior prior{state_.variance.prior(), state_.shared};
   counts.merged +=
       merge_duplicates({rig_, state_.frames, prior, options_}, std::move(cleaned), state_.pending);
   times_.merging += watch.lap();
 }
 
 std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landmarks) {
-  const VariancePrior prior = state_.variance.prior();
+  const NoisePrior prior{state_.variance.prior(), state_.shared};
   std::vector<SurveyLandmark> kept;
   for (SurveyLandmark& landmark : landmarks) {
     complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
     const auto rule = failed_rule(landmark.indicators, landmark.own_covariance(), options_.cleaning);
-    rule ? void(++state_.counts.cleaned[static_cast<std::size_t>(*rule)])
-         : kept.push_back(std::move(landmark));
+    if (rule) {
+      ++state_.counts.cleaned[static_cast<std::size_t>(*rule)];
+      continue;
+    }
+    state_.shared.add(landmark.half_difference / landmark.variance_factor,
+                      static_cast<int>(landmark.observations.size()));
+    kept.push_back(std::move(landmark));
   }
   return kept;
 }
@@ -173,7 +189,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
 void Surveyor::write_landmarks(KeyframeId seen_before) {
   Stopwatch watch;
   std::vector<SurveyLandmark> later;
-  const VariancePrior prior = state_.variance.prior();
+  const NoisePrior prior{state_.variance.prior(), state_.shared};
   HoldOut hold_out(rig_, options_, prior, state_.frames);
   for (SurveyLandmark& landmark : state_.pending) {
     if (landmark.observations.back().keyframe >= seen_before) {
@@ -188,6 +204,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
     ++state_.next_landmark.value;
     ++state_.counts.landmarks;
     state_.counts.observations += static_cast<std::int64_t>(landmark.observations.size());
+    count_residuals(rig_, state_.frames, landmark, state_.counts);
     count_uncertainty(landmark, state_.counts);
   }
   state_.pending = std::move(later);
