@@ -18,7 +18,9 @@ class MotionDifferences {
   }
 
   [[nodiscard]] int count() const { return count_; }
-  [[nodiscard]] Vector6d variances() const { return squares_ / count_ - (sum_ / count_).cwiseAbs2(); }
+  [[nodiscard]] Vector6d variances() const {
+    return (squares_ - sum_.cwiseAbs2() / count_) / std::max(1, count_ - 1);
+  }
   /// Returns the part of these that the noise of pixels explains.
   [[nodiscard]] Vector6d formal_variances() const { return formal_ / count_; }
 
@@ -60,9 +62,7 @@ class PoseBundle {
   }
 
   void add_priors(KeyframeId first, const PoseNoise& noise) {
-    constexpr double kLeast = 10;  // ratio of variances: the errors of many features are never independent
-    const Vector6d overconfidence =
-        (noise.motion + kTiny).cwiseQuotient(noise.formal + kTiny).cwiseMax(kLeast);
+    const Vector6d overconfidence = (noise.motion + kTiny).cwiseQuotient(noise.formal + kTiny);
     const Vector6d information = overconfidence.cwiseQuotient(noise.given + kTiny);
     for (KeyframeId id = first; id <= frames_.back().id; ++id.value)
       problem_.priors.push_back(
@@ -139,7 +139,7 @@ PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId 
     // it, because to take drift for jitter does more harm.
     const double scatter = 1 + 0.5 * std::sqrt(2.0 * kLag / far.count());
     const Vector6d drift = (far.variances() - scatter * near.variances()) / (kLag - 1);
-    noise.motion = noise.formal.cwiseMax(drift);
+    noise.motion = noise.formal.cwiseMax(drift.cwiseMin((1 - kLeastJitter) * near.variances()));
   }
   const Vector6d jitter = (near.variances() - noise.formal) / 2;
   noise.given = ((near.variances() - noise.motion) / 2).cwiseMax(kLeastJitter * jitter).cwiseMax(0.0);
