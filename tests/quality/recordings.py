@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The program on real recordings. Arguments: the program, the folder of recordings (README, "Tests")."""
 
+import json
 import re
 import shutil
 import subprocess
@@ -89,6 +90,7 @@ class Highway(program.Quality):
         done = self.figures("map", sequence, "-o", "map1", "--threads", "1")
         self.assertLessEqual(done["smoothed_poses"]["moved_rms_m"], 0.04)
         self.assertGreaterEqual(done["landmarks"], 9500)
+        self.assertLessEqual(done["share_beyond_px"]["4"], 0.01)
         self.cairn("map", sequence, "-o", "map2", "--threads", "2", "--quiet")
         self.assert_same_files("map1", "map2")
 
@@ -199,6 +201,14 @@ class Localisation(program.Quality):
         self.assertEqual(images["good"], 40)
         self.assertLessEqual(errors["ate_max_m"], 0.30)
         self.assertLessEqual(errors["ate_median_m"], 0.10)
+        stated = self.figures("evaluate", "found", sequence, "--align", "none")["covariances"][0]
+        self.assertEqual((stated["scope"], stated["weak"]), ("absolute", False))
+        inside = {coverage["nominal"]: coverage["share"] for coverage in stated["pose"]["coverage"]}
+        self.assertGreaterEqual(inside[0.95], 0.85)
+        self.assertLessEqual(stated["pose"]["mean_nees_per_dof"], 2)
+        self.assertLessEqual(stated["position"]["std_per_error"], 1.5)
+        report = json.loads((self.folder / "map/report.json").read_text())
+        self.assertLessEqual(report["share_beyond_px"]["4"], 0.01)
 
     def test_images_of_another_recording_are_not_good(self):
         recordings = program.recordings()
