@@ -354,7 +354,7 @@ class Photos(program.Quality):
             run = self.figures("localize", "map", "other/rgb", "--camera", "other/camera.yaml", "--frames", "1::4", "-o", "found", "--draw")
             self.assertEqual((run["images"]["good"], run["stamps"][:9]), (5, "positions"))
         said = self.cairn("localize", "map", "other", "--frames", "1:2", "-o", "found", "--quiet")
-        self.assertRegex(said, r"position +\S+ cm by noise alone \(standard deviation\), protection level \S+ cm")
+        self.assertRegex(said, r"position +\S+ cm within the map \(standard deviation\), protection level \S+ cm")
 
 
 if __name__ == "__main__":
