@@ -72,7 +72,7 @@ class PoseBundle {
   /// Adds what a track shows in the bundle's frames, if that says anything of their poses.
   void add(const Track& track) {
     const auto seen = std::find_if(track.observations.begin(), track.observations.end(),
-                                   [&](const ObservationRef& seen) { return seen.keyframe >= begin_; });
+                                   [&](const ObservationRef& other) { return other.keyframe >= begin_; });
     constexpr std::ptrdiff_t kFewest = 3;  // two agree by chance
     if (track.observations.end() - seen < kFewest) return;
     const auto point = static_cast<std::int32_t>(problem_.points_in_world.size());
