@@ -157,9 +157,9 @@ void adjust_poses(const Rig& rig, std::span<const Track* const> tracks, Keyframe
   adjust_twice(problem, executor);
   for (KeyframeId id = first; id <= frames.back().id; ++id.value) {
     SurveyFrame& frame = frames[id];
-    frame.camera_from_world =
-        CameraFromWorld(problem.camera_from_world[static_cast<std::size_t>(bundle.camera_of(id))]);
-    frame.world_from_camera = frame.camera_from_world.inverse();
+    const Rigid3& adjusted = problem.camera_from_world[static_cast<std::size_t>(bundle.camera_of(id))];
+    frame.world_from_camera = WorldFromCamera(adjusted.inverse());
+    frame.camera_from_world = frame.world_from_camera.inverse();  // the bits that a checkpoint gives back
   }
 }
 
