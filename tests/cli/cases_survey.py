@@ -79,7 +79,7 @@ def colmap_map(root):
 
 
 FILES = tuple(f"map/{name}" for name in ("Descriptor.bin", "Place.bin", "Point.bin", "config.yaml", "frames", "landmarks.ply", "landmarks.png", "map.json", "poses.txt",
-                                         "report.json", "uvlist.txt", ".cairn"))
+                                         "report.json", "held_out.txt", "uvlist.txt", ".cairn"))
 
 
 COLMAP_FILES = tuple(f"map/colmap/{name}.{form}" for name in ("cameras", "images", "points3D") for form in ("bin", "txt"))

@@ -10,6 +10,7 @@
 #include "cairn/core/random.h"
 #include "cairn/map/indicators.h"
 #include "cairn/map_files/frame_file.h"
+#include "cairn/map_files/held_out_file.h"
 #include "cairn/map_files/landmark_stream.h"
 #include "cairn/map_files/map_file.h"
 #include "cairn/map_files/map_text_files.h"
@@ -132,6 +133,7 @@ MapStatistics read_map_statistics(const fs::path& map_folder) {
   for (const KeyframeEntry& keyframe : figures.info.keyframes)
     ++figures.component_keyframes[keyframe.component];
   (void)read_map_poses(folder, figures.info);
+  (void)read_held_out(folder, figures.info);
   check_sealed_file(folder / kPlaceFile, kPlaceKind, figures.info.checksum_of(kPlaceFile));
   const ObservationSet shown = read_frames(folder, figures.info);
   if (shown != read_landmarks(folder, figures))
