@@ -95,7 +95,7 @@ class Limits(program.Quality):
     """Every landmark of a map holds against every limit, merged ones too."""
 
     # To merge what hardly belongs together, of tracks that end soon and begin again.
-    EAGER = ("--set", "clean.duplicate_sigmas=8", "--set", "window=4")
+    EAGER = ("--set", "clean.duplicate_sigmas=8", "--set", "window=2")
     LIMITS = {"clean.max_rms_px": 0.7, "clean.min_frames": 4, "clean.depth.max": 40, "clean.depth.max_std": 6, "clean.distance.max_mean": 35,
               "clean.lateral.max": 20, "clean.angle_deg.max": 35, "clean.angle_deg.max_std": 6}
 
