@@ -21,15 +21,6 @@ using Fields = std::vector<std::string_view>;
 constexpr std::array<std::string_view, 6> kAxes = {"rx", "ry", "rz", "x", "y", "z"};
 constexpr std::size_t kColumns = 21;
 
-/// Returns the names of the columns of a covariance.
-std::vector<std::string> columns_of(std::string_view prefix) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < kAxes.size(); ++i)
-    for (std::size_t k = i; k < kAxes.size(); ++k)
-      names.push_back(fmt::format("{}{}_{}", prefix, kAxes[i], kAxes[k]));
-  return names;
-}
-
 Fields split(std::string_view line) {
   Fields fields;
   for (std::size_t begin = 0; begin <= line.size();) {
@@ -72,7 +63,7 @@ class TableReader {
     for (const std::string_view name : split(line)) names_.emplace_back(name);
     if (!column("stamp_s")) fail("a column stamp_s", "none", "Name the columns in this line.");
     for (const std::string_view prefix : prefixes_) {
-      const std::vector<std::string> wanted = columns_of(prefix);
+      const std::vector<std::string> wanted = covariance_columns(prefix);
       std::vector<std::size_t> found;
       std::string missing;
       for (const std::string& name : wanted)
@@ -161,6 +152,14 @@ class TableReader {
 };
 
 }  // namespace
+
+std::vector<std::string> covariance_columns(std::string_view prefix) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < kAxes.size(); ++i)
+    for (std::size_t k = i; k < kAxes.size(); ++k)
+      names.push_back(fmt::format("{}{}_{}", prefix, kAxes[i], kAxes[k]));
+  return names;
+}
 
 CovarianceTable read_covariance_table(const std::filesystem::path& path,
                                       std::span<const std::string_view> prefixes) {

@@ -21,6 +21,10 @@ inline constexpr std::array<std::string_view, 2> kLocalizationPrefixes = {"abs_c
 /// keyframe of the row before.
 inline constexpr std::array<std::string_view, 2> kKeyframePrefixes = {"first_cov_", "previous_cov_"};
 
+/// Returns the names of the 21 columns of a covariance: PREFIXrx_rx, PREFIXrx_ry, ..., PREFIXz_z, the upper
+/// triangle by rows.
+[[nodiscard]] std::vector<std::string> covariance_columns(std::string_view prefix);
+
 /// Holds what a row of a table states of one pose.
 struct CovarianceRow {
   std::int64_t stamp_ns = 0;

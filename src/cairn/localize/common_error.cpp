@@ -55,11 +55,12 @@ CommonErrors::CommonErrors(std::span<const HeldOutFrame> frames) : frames_(frame
 
 std::optional<CommonError> CommonErrors::near(KeyframeId keyframe) const {
   if (frames_.size() < kFewest) return std::nullopt;
-  std::vector<HeldOutFrame> nearest = frames_;
-  std::stable_sort(nearest.begin(), nearest.end(), [&](const HeldOutFrame& a, const HeldOutFrame& b) {
-    return std::abs(a.keyframe.value - keyframe.value) < std::abs(b.keyframe.value - keyframe.value);
-  });
-  nearest.resize(std::min(kNear, nearest.size()));
+  std::vector<HeldOutFrame> nearest(std::min(kNear, frames_.size()));
+  const auto order = [&](const HeldOutFrame& frame) {
+    return std::pair(std::abs(frame.keyframe.value - keyframe.value), frame.keyframe);
+  };
+  std::partial_sort_copy(frames_.begin(), frames_.end(), nearest.begin(), nearest.end(),
+                         [&](const HeldOutFrame& a, const HeldOutFrame& b) { return order(a) < order(b); });
   const CommonError local = mean_error(nearest);
   const double share = static_cast<double>(nearest.size()) / static_cast<double>(nearest.size() + kNear);
   return CommonError{share * local.to_map + (1 - share) * mean_.to_map,

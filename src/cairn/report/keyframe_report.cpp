@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/report/keyframe_report.h"
 
-#include <fmt/format.h>
-
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "cairn/core/text.h"
+#include "cairn/report/covariance_columns.h"
 
 namespace cairn {
 namespace {
 
-constexpr std::array<const char*, 6> kAxes{"rx", "ry", "rz", "x", "y", "z"};
 constexpr std::size_t kColumns = 21;  // of a covariance: its upper triangle, row by row
 
 /// Returns the keyframes of keyframes.txt.
@@ -31,20 +28,8 @@ KeyframeCovariance covariance_of(const SlamResult& result, KeyframeId id) {
   return k < result.keyframe_covariances.size() ? result.keyframe_covariances[k] : KeyframeCovariance{};
 }
 
-std::string format_names(const char* of) {
-  std::string text;
-  for (std::size_t i = 0; i < kAxes.size(); ++i)
-    for (std::size_t k = i; k < kAxes.size(); ++k)
-      text += fmt::format(",{}_cov_{}_{}", of, kAxes[i], kAxes[k]);
-  return text;
-}
-
 std::string format_covariance(const std::optional<Matrix6d>& covariance) {
-  if (!covariance) return std::string(kColumns, ',');
-  std::string text;
-  for (int i = 0; i < 6; ++i)
-    for (int k = i; k < 6; ++k) text += fmt::format(",{:.9g}", (*covariance)(i, k));
-  return text;
+  return covariance ? format_covariance_values(*covariance) : std::string(kColumns, ',');
 }
 
 }  // namespace
@@ -61,7 +46,7 @@ std::string format_keyframe_covariances(const SlamResult& result) {
       "# An error of the stated baseline or of the scale of depth is in no residual and not counted: it "
       "changes all distances by the same factor. Empty: not known, or no keyframe before.\n"
       "stamp_s" +
-      format_names("first") + format_names("previous") + "\n";
+      format_covariance_names("first_cov_") + format_covariance_names("previous_cov_") + "\n";
   for (const KeyframeId id : listed_keyframes(result)) {
     const KeyframeCovariance covariance = covariance_of(result, id);
     text += format_stamp(result.map[id].observed.stamp_ns) + format_covariance(covariance.from_first) +

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cairn/core/text.h"
+#include "cairn/report/covariance_columns.h"
 #include "cairn/report/localization_report.h"
 
 namespace cairn {
@@ -29,19 +30,10 @@ std::string format_header() {
   text += columns("dop", "deg_per_px", "m_per_px");
   text += columns("std", "deg", "m");
   text += columns("protection", "deg", "m");
-  for (std::size_t i = 0; i < kAxes.size(); ++i)
-    for (std::size_t k = i; k < kAxes.size(); ++k) text += fmt::format(",cov_{}_{}", kAxes[i], kAxes[k]);
+  text += format_covariance_names("cov_");
   text += columns("abs_std", "deg", "m");
-  for (std::size_t i = 0; i < kAxes.size(); ++i)
-    for (std::size_t k = i; k < kAxes.size(); ++k) text += fmt::format(",abs_cov_{}_{}", kAxes[i], kAxes[k]);
+  text += format_covariance_names("abs_cov_");
   return text + "\n";
-}
-
-std::string format_upper(const Matrix6d& covariance) {
-  std::string text;
-  for (int i = 0; i < 6; ++i)
-    for (int k = i; k < 6; ++k) text += fmt::format(",{:.9g}", covariance(i, k));
-  return text;
 }
 
 Vector6d deviations_of(const Matrix6d& covariance) {
@@ -68,9 +60,10 @@ std::string format_quality(const Localization& found) {
                                  found.inliers.size(), found.independent, found.cells, found.rms_px,
                                  found.variance_factor, found.from_prior ? 1 : 0, precision.gdop);
   text += format_six(precision.dilution) + format_six(deviations_of(precision.covariance)) +
-          format_six(precision.protection) + format_upper(precision.covariance);
+          format_six(precision.protection) + format_covariance_values(precision.covariance);
   if (!precision.absolute) return text + std::string(kAbsoluteColumns, ',');
-  return text + format_six(deviations_of(*precision.absolute)) + format_upper(*precision.absolute);
+  return text + format_six(deviations_of(*precision.absolute)) +
+         format_covariance_values(*precision.absolute);
 }
 
 std::string format_row(const LocalizedImage& image) {
