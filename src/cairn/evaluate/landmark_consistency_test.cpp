@@ -24,8 +24,8 @@ constexpr double kFocal = 180, kWallZ = 9;
 constexpr Rig kRig{kFocal, kFocal, 99.5, 74.5, 0.5};
 constexpr int kSkyRows = 30;
 
-/// The camera drives towards a wall that ends below the sky, a metre a frame, in a curve: places on a straight
-/// line would leave the rotation of an alignment open.
+/// The camera drives towards a wall that ends below the sky, a metre a frame, in a curve: places on a
+/// straight line would leave the rotation of an alignment open.
 Rigid3 world_from_camera(int frame) {
   return {rotation_exp({0, 0.03 * frame, 0}), {0.2 * frame * frame, 0, 1.0 * frame}};
 }

@@ -49,6 +49,16 @@ HeldOutFigures held_out_figures(const std::vector<HeldOutFrame>& frames) {
           kDegrees * rms(to_given.head<3>())};
 }
 
+Json to_json(const VariancePrior& prior, const LandmarkNoise& noise) {
+  return {{"variance_factor", prior.scale},
+          {"degrees_of_freedom", prior.freedom},
+          {"disparities", {{"constant", noise.disparities[0]}, {"by_landmark", noise.disparities[1]}}},
+          {"pixels",
+           {{"constant", noise.pixels[0]},
+            {"by_observation", noise.pixels[1]},
+            {"by_parallax", noise.pixels[2]}}}};
+}
+
 Json to_json(const HeldOutFigures& figures) {
   return {{"frames", figures.frames},
           {"to_map_rms_m", figures.to_map_m},
@@ -86,9 +96,7 @@ Json to_json(const SurveyResult& result) {
   json["dropped_sightings"] = counts.dropped_observations;
   for (std::size_t i = 0; i < kBeyondPx.size(); ++i)
     json["share_beyond_px"][fmt::format("{}", kBeyondPx[i])] = ratio(counts.beyond[i], counts.observations);
-  json["noise"] = {{"variance_factor", result.noise.scale},
-                   {"degrees_of_freedom", result.noise.freedom},
-                   {"shared_share", result.shared_share}};
+  json["noise"] = to_json(result.noise, result.landmark_noise);
   json["held_out"] = to_json(held_out_figures(result.held_out));
   json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
   json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},

@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kKind{"CAIRNSVY", 3};
+constexpr BinaryKind kKind{"CAIRNSVY", 4};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
@@ -61,6 +61,8 @@ void put(const Track& track, ByteWriter& writer);
 void get(BinaryReader& reader, Track& track);
 void put(const SurveyLandmark& landmark, ByteWriter& writer);
 void get(BinaryReader& reader, SurveyLandmark& landmark);
+void put(LandmarkNoiseModel::Sample sample, ByteWriter& writer);
+void get(BinaryReader& reader, LandmarkNoiseModel::Sample& sample);
 
 template <class Item>
 void put(const std::vector<Item>& items, ByteWriter& writer) {
@@ -149,6 +151,28 @@ Rigid3 get_transform(BinaryReader& reader) {
   return transform;
 }
 
+/// Returns the numbers of the information, in the order in which they are stored.
+std::array<double*, 8> fields_of(LandmarkInformation& information) {
+  return {&information.pixel_errors,           &information.disparity_errors,
+          &information.pixel_redundancy,       &information.disparity_redundancy,
+          &information.disparity_share,        &information.disagreement,
+          &information.disagreement_by_pixels, &information.disagreement_by_disparities};
+}
+
+void put(LandmarkInformation information, ByteWriter& writer) {
+  put_matrix(information.pixels, writer);
+  put_matrix(information.disparities, writer);
+  for (const double* field : fields_of(information)) writer.put(*field);
+  writer.put(information.observations);
+}
+
+void get(BinaryReader& reader, LandmarkInformation& information) {
+  get_matrix(reader, information.pixels);
+  get_matrix(reader, information.disparities);
+  for (double* field : fields_of(information)) *field = reader.get<double>();
+  information.observations = reader.get<std::int32_t>();
+}
+
 void put(const SurveyLandmark& landmark, ByteWriter& writer) {
   put(landmark.observations, writer);
   put_matrix(landmark.point_in_world, writer);
@@ -156,7 +180,8 @@ void put(const SurveyLandmark& landmark, ByteWriter& writer) {
   writer.put(landmark.squared_error_sum);
   writer.put(landmark.redundancy);
   writer.put(landmark.variance_factor);
-  writer.put(landmark.shared_factor);
+  put(landmark.information, writer);
+  put_matrix(landmark.image_covariance, writer);
   put_matrix(landmark.pose_covariance, writer);
   put(landmark.indicators, writer);
 }
@@ -168,7 +193,8 @@ void get(BinaryReader& reader, SurveyLandmark& landmark) {
   landmark.squared_error_sum = reader.get<double>();
   landmark.redundancy = reader.get<int>();
   landmark.variance_factor = reader.get<double>();
-  landmark.shared_factor = reader.get<double>();
+  get(reader, landmark.information);
+  get_matrix(reader, landmark.image_covariance);
   get_matrix(reader, landmark.pose_covariance);
   get(reader, landmark.indicators);
 }
@@ -210,18 +236,50 @@ VarianceModel::Sums get_sums(BinaryReader& reader) {
   return sums;
 }
 
-void put(const SharedErrorModel::Sums& sums, ByteWriter& writer) {
-  writer.put(sums.count);
-  writer.put(sums.log);
-  writer.put(sums.observations);
+using NoiseSample = LandmarkNoiseModel::Sample;
+
+/// Returns the numbers of a sample, in the order in which they are stored.
+std::array<double*, 9> fields_of(NoiseSample& sample) {
+  return {&sample.pixel_errors,
+          &sample.disparity_errors,
+          &sample.pixel_redundancy,
+          &sample.disparity_redundancy,
+          &sample.disparity_share,
+          &sample.disagreement,
+          &sample.disagreement_by_pixels,
+          &sample.disagreement_by_disparities,
+          &sample.observations};
 }
 
-SharedErrorModel::Sums get_shared_sums(BinaryReader& reader) {
-  SharedErrorModel::Sums sums;
-  sums.count = reader.get<std::int64_t>();
-  sums.log = reader.get<double>();
-  sums.observations = reader.get<double>();
-  return sums;
+void put(NoiseSample sample, ByteWriter& writer) {
+  for (const double* field : fields_of(sample)) writer.put(*field);
+}
+
+void get(BinaryReader& reader, NoiseSample& sample) {
+  for (double* field : fields_of(sample)) *field = reader.get<double>();
+}
+
+/// Returns the numbers of the noise, in the order in which they are stored.
+std::array<double*, 9> fields_of(LandmarkNoise& noise) {
+  return {&noise.pixel_scale, &noise.disparity_scale, &noise.own.freedom,
+          &noise.own.scale,   &noise.disparities[0],  &noise.disparities[1],
+          &noise.pixels[0],   &noise.pixels[1],       &noise.pixels[2]};
+}
+
+void put(const LandmarkNoiseModel& model, ByteWriter& writer) {
+  put(model.samples(), writer);
+  writer.put(model.count());
+  LandmarkNoise noise = model.noise();
+  for (const double* field : fields_of(noise)) writer.put(*field);
+}
+
+LandmarkNoiseModel get_noise(BinaryReader& reader) {
+  std::vector<NoiseSample> samples;
+  get(reader, samples);
+  const auto count = reader.get<std::int64_t>();
+  LandmarkNoise noise;
+  for (double* field : fields_of(noise)) *field = reader.get<double>();
+  return {std::move(samples), count, noise};
 }
 
 /// Stores a frame without its features and its given pose, which a run that resumes has again.
@@ -269,7 +327,7 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   get(reader, state.held_out);
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
-  state.shared = SharedErrorModel(get_shared_sums(reader));
+  state.noise = get_noise(reader);
   for (std::int64_t* field : fields_of(state.counts)) *field = reader.get<std::int64_t>();
   for (double* sum : sums_of(state.counts)) *sum = reader.get<double>();
   const auto count = reader.get<std::uint64_t>();
@@ -296,7 +354,7 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   put(state.held_out, writer);
   put(state.pending, writer);
   put(state.variance.sums(), writer);
-  put(state.shared.sums(), writer);
+  put(state.noise, writer);
   SurveyCounts counts = state.counts;
   for (const std::int64_t* field : fields_of(counts)) writer.put(*field);
   for (const double* sum : sums_of(counts)) writer.put(*sum);

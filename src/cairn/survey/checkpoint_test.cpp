@@ -41,7 +41,24 @@ SurveyLandmark make_landmark(const FrameBuffer& frames, std::int32_t feature) {
           .value();
   landmark.pose_covariance = Eigen::Vector3d(0.1, 0.2, 0.3 + feature).asDiagonal();
   landmark.variance_factor = 1.75;
+  landmark.image_covariance = Eigen::Vector3d(0.4, 0.5, 0.6 + feature).asDiagonal();
   return landmark;
+}
+
+/// What a landmark may say of its noise, a bit more of each number for a larger `i`.
+LandmarkInformation information(int i) {
+  const double x = 1 + 0.01 * i;
+  return {x * Eigen::Matrix3d::Identity(),
+          2 * x * Eigen::Matrix3d::Identity(),
+          7 * x,
+          3 * x,
+          6,
+          4,
+          0.3 * x,
+          0.9 * x,
+          0.2 * x,
+          0.1 * x,
+          5};
 }
 
 /// As in the middle of a drive: frames 4 to 8 are still needed.
@@ -65,6 +82,7 @@ SurveyState make_state() {
   }
   for (std::int32_t i = 0; i < 3; ++i) state.tracks.push_back(testkit::track_of(state.frames, i, 5, 8 - i));
   for (int i = 0; i < 120; ++i) state.variance.add(1.0 + i % 5, 6);
+  for (int i = 0; i < 130; ++i) state.noise.add(information(i));
   state.counts = all_different();
   return state;
 }
@@ -141,6 +159,33 @@ void expect_equal(const LandmarkIndicators& a, const LandmarkIndicators& b) {
   expect_equal(a.angle_deg, b.angle_deg);
 }
 
+void expect_equal(const LandmarkInformation& a, const LandmarkInformation& b) {
+  EXPECT_EQ(a.pixels, b.pixels);
+  EXPECT_EQ(a.disparities, b.disparities);
+  EXPECT_EQ(a.pixel_errors, b.pixel_errors);
+  EXPECT_EQ(a.disparity_errors, b.disparity_errors);
+  EXPECT_EQ(a.pixel_redundancy, b.pixel_redundancy);
+  EXPECT_EQ(a.disparity_redundancy, b.disparity_redundancy);
+  EXPECT_EQ(a.disparity_share, b.disparity_share);
+  EXPECT_EQ(a.disagreement, b.disagreement);
+  EXPECT_EQ(a.disagreement_by_pixels, b.disagreement_by_pixels);
+  EXPECT_EQ(a.disagreement_by_disparities, b.disagreement_by_disparities);
+  EXPECT_EQ(a.observations, b.observations);
+}
+
+void expect_equal(const LandmarkNoiseModel& a, const LandmarkNoiseModel& b) {
+  EXPECT_EQ(a.count(), b.count());
+  EXPECT_EQ(a.noise().pixel_scale, b.noise().pixel_scale);
+  EXPECT_EQ(a.noise().disparity_scale, b.noise().disparity_scale);
+  EXPECT_EQ(a.noise().own.freedom, b.noise().own.freedom);
+  EXPECT_EQ(a.noise().own.scale, b.noise().own.scale);
+  EXPECT_EQ(a.noise().disparities, b.noise().disparities);
+  EXPECT_EQ(a.noise().pixels, b.noise().pixels);
+  ASSERT_EQ(a.samples().size(), b.samples().size());
+  EXPECT_EQ(a.samples().back().disagreement_by_pixels, b.samples().back().disagreement_by_pixels);
+  EXPECT_EQ(a.samples().back().observations, b.samples().back().observations);
+}
+
 void expect_equal(const SurveyLandmark& a, const SurveyLandmark& b) {
   EXPECT_EQ(a.observations, b.observations);
   EXPECT_EQ(a.point_in_world, b.point_in_world);
@@ -148,6 +193,8 @@ void expect_equal(const SurveyLandmark& a, const SurveyLandmark& b) {
   EXPECT_EQ(a.squared_error_sum, b.squared_error_sum);
   EXPECT_EQ(a.redundancy, b.redundancy);
   EXPECT_EQ(a.variance_factor, b.variance_factor);
+  expect_equal(a.information, b.information);
+  EXPECT_EQ(a.image_covariance, b.image_covariance);
   EXPECT_EQ(a.pose_covariance, b.pose_covariance);
   expect_equal(a.indicators, b.indicators);
 }
@@ -165,6 +212,7 @@ TEST_F(CheckpointTest, gives_the_state_back) {
   EXPECT_EQ(found.variance.sums().noise, state_.variance.sums().noise);
   EXPECT_EQ(found.variance.prior().freedom, state_.variance.prior().freedom);
   EXPECT_EQ(found.variance.prior().scale, state_.variance.prior().scale);
+  expect_equal(found.noise, state_.noise);
   ASSERT_EQ(found.frames.size(), state_.frames.size());
   for (int i = 4; i < 9; ++i) expect_equal(found.frames[KeyframeId{i}], state_.frames[KeyframeId{i}]);
   ASSERT_EQ(found.tracks.size(), state_.tracks.size());

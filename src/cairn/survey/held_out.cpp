@@ -19,6 +19,14 @@ std::vector<CameraObservation> observations_without(const FrameBuffer& frames, c
   return others;
 }
 
+/// Returns the observations that the fit kept.
+std::vector<CameraObservation> kept(std::span<const CameraObservation> observations, const LandmarkFit& fit) {
+  std::vector<CameraObservation> result;
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    if (fit.kept[i] != 0) result.push_back(observations[i]);
+  return result;
+}
+
 /// Returns the variances of a given pose as those of the left perturbation of camera_from_world.
 Vector6d stated_variances(const GivenPose& given) {
   if (!given.uncertainty) return Vector6d::Zero();
@@ -39,16 +47,20 @@ bool is_held_out(KeyframeId frame) {
 }
 
 HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const NoisePrior& prior, FrameBuffer& frames)
-    : prior_(prior), frames_(frames), cameras_(frames.camera_poses()), solver_(rig, cameras_, options.fit) {}
+    : rig_(rig),
+      prior_(prior),
+      frames_(frames),
+      cameras_(frames.camera_poses()),
+      solver_(rig, cameras_, options.fit) {}
 
 void HoldOut::add(const SurveyLandmark& landmark) {
   for (const ObservationRef& observation : landmark.observations) {
     if (!is_held_out(observation.keyframe)) continue;
-    solver_.fit(observations_without(frames_, landmark, observation.keyframe), fit_);
+    const auto others = observations_without(frames_, landmark, observation.keyframe);
+    solver_.fit(others, fit_);
     if (fit_.status != LandmarkFitStatus::ok) continue;
-    const double factor = prior_.variance.factor(fit_.squared_error_sum, fit_.redundancy) *
-                          prior_.shared.factor(static_cast<int>(landmark.observations.size()) - 1);
-    const Eigen::Matrix3d own = factor * fit_.covariance;
+    const auto information = information_of(rig_, cameras_, kept(others, fit_), fit_.point_in_world);
+    const Eigen::Matrix3d own = prior_.noise.covariance_of(information);
     frames_[observation.keyframe].held_out.push_back(
         {observation.feature, fit_.point_in_world, own + landmark.pose_covariance});
   }

@@ -22,6 +22,7 @@ class HoldOut {
   void add(const SurveyLandmark& landmark);
 
  private:
+  const Rig& rig_;
   const NoisePrior& prior_;
   FrameBuffer& frames_;
   std::vector<CameraFromWorld> cameras_;

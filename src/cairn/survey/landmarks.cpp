@@ -31,21 +31,11 @@ SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
   landmark.cofactor = fit.covariance;
   landmark.squared_error_sum = fit.squared_error_sum;
   landmark.redundancy = fit.redundancy;
+  landmark.information =
+      information_of(rig, cameras, with_positions(frames, landmark.observations), fit.point_in_world);
   landmark.indicators =
       indicators_of(rig, fit.point_in_world, views_of(frames, cameras, landmark.observations));
   return landmark;
-}
-
-/// Computes SurveyLandmark::half_difference.
-double half_difference(const FrameBuffer& frames, const SurveyLandmark& landmark, LandmarkSolver& solver) {
-  const std::span<const ObservationRef> all = landmark.observations;
-  LandmarkFit first, second;
-  solver.fit(with_positions(frames, all.first(all.size() / 2)), first);
-  solver.fit(with_positions(frames, all.subspan(all.size() / 2)), second);
-  if (first.status != LandmarkFitStatus::ok || second.status != LandmarkFitStatus::ok) return 0;
-  const Eigen::Vector3d difference = first.point_in_world - second.point_in_world;
-  const Eigen::Matrix3d covariance = first.covariance + second.covariance;
-  return difference.dot(covariance.ldlt().solve(difference)) / 3;
 }
 
 /// Computes the covariance of c + w x lever, with the errors (c, w) of a pose.
@@ -92,17 +82,14 @@ AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::spa
   AdjustedTracks adjusted;
   const auto cameras = frames.camera_poses();
   std::vector<std::optional<SurveyLandmark>> fits(tracks.size());
-  constexpr std::size_t kGrain = 64;         // tracks of a chunk: about a millisecond
-  constexpr std::size_t kFewestToHalve = 8;  // observations, four in each half
+  constexpr std::size_t kGrain = 64;  // tracks of a chunk: about a millisecond
   executor.for_each_chunk(tracks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     LandmarkSolver solver(rig, cameras, options.fit);
     LandmarkFit fit;
     for (std::size_t i = begin; i < end; ++i) {
       solver.fit(with_positions(frames, tracks[i].observations), fit);
-      if (fit.status != LandmarkFitStatus::ok) continue;
-      fits[i] = make_landmark(rig, frames, cameras, tracks[i].observations, fit);
-      if (fits[i]->observations.size() >= kFewestToHalve)
-        fits[i]->half_difference = half_difference(frames, *fits[i], solver);
+      if (fit.status == LandmarkFitStatus::ok)
+        fits[i] = make_landmark(rig, frames, cameras, tracks[i].observations, fit);
     }
   });
   for (std::size_t i = 0; i < tracks.size(); ++i) {
@@ -122,7 +109,7 @@ AdjustedTracks adjust_tracks(const Rig& rig, const FrameBuffer& frames, std::spa
 void complete_covariance(const FrameBuffer& frames, const NoisePrior& prior, bool pose_errors,
                          SurveyLandmark& landmark) {
   landmark.variance_factor = prior.variance.factor(landmark.squared_error_sum, landmark.redundancy);
-  landmark.shared_factor = prior.shared.factor(static_cast<int>(landmark.observations.size()));
+  landmark.image_covariance = prior.noise.covariance_of(landmark.information);
   if (pose_errors) landmark.pose_covariance = pose_covariance_of(frames, landmark);
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cairn/map/indicators.h"
-#include "cairn/survey/shared_error.h"
+#include "cairn/optimize/landmark_noise.h"
+#include "cairn/optimize/variance_model.h"
 #include "cairn/survey/tracks.h"
-#include "cairn/survey/variance_model.h"
 
 namespace cairn {
 
@@ -19,24 +19,21 @@ struct SurveyLandmark {
   /// Covariance of the point, square metres, if the observations are as noisy as their standard deviations
   /// say and the poses exact.
   Eigen::Matrix3d cofactor = Eigen::Matrix3d::Zero();
-  double squared_error_sum = 0;  ///< over the observations, in units of their standard deviations
-  int redundancy = 0;            ///< number of measured values minus the three of the point
-  double variance_factor = 1;    ///< a posteriori, see VarianceModel
-  double shared_factor = 1;      ///< for what the observations have in common, see SharedErrorModel
-  /// Squared difference of the points by the first and the second half of the observations, in units of its
-  /// covariance, divided by 3; 0 if the halves are too short. Not scaled by the variance factor.
-  double half_difference = 0;
+  double squared_error_sum = 0;     ///< over the observations, in units of their standard deviations
+  int redundancy = 0;               ///< number of measured values minus the three of the point
+  double variance_factor = 1;       ///< a posteriori, see VarianceModel
+  LandmarkInformation information;  ///< of the observations
+  /// From the images, with what the observations have in common, see LandmarkNoise; square metres.
+  Eigen::Matrix3d image_covariance = Eigen::Matrix3d::Zero();
   /// What the errors of the given poses add, square metres.
   Eigen::Matrix3d pose_covariance = Eigen::Matrix3d::Zero();
   LandmarkIndicators indicators;
 
-  /// Returns the covariance from the images alone, square metres. It tells landmarks apart, because the
-  /// errors of poses move neighbouring landmarks alike.
+  /// Returns the covariance if the errors of the observations were independent, square metres. It tells
+  /// landmarks apart, because what they have in common moves neighbouring landmarks alike.
   [[nodiscard]] Eigen::Matrix3d own_covariance() const { return variance_factor * cofactor; }
   /// Returns the covariance of the point in the world, square metres.
-  [[nodiscard]] Eigen::Matrix3d covariance() const {
-    return shared_factor * own_covariance() + pose_covariance;
-  }
+  [[nodiscard]] Eigen::Matrix3d covariance() const { return image_covariance + pose_covariance; }
 };
 
 /// Holds the landmarks made of tracks, and counts the tracks of which none was made.
@@ -68,12 +65,12 @@ struct AdjustedTracks {
 /// Holds what is known of the noise of all landmarks' observations.
 struct NoisePrior {
   VariancePrior variance;
-  SharedErrorModel shared;
+  LandmarkNoise noise;
 };
 
-/// Sets the variance factor, the shared factor and, if `pose_errors` is true, what the errors of the given
-/// poses add to the covariance, zero if they state none. GNSS/INS errors change slowly, so that the poses of
-/// one landmark err alike: the mean of what each pose alone would add, dX = c + w x (X - p) with
+/// Sets the variance factor, the covariance from the images and, if `pose_errors` is true, what the errors of
+/// the given poses add to the covariance, zero if they state none. GNSS/INS errors change slowly, so that the
+/// poses of one landmark err alike: the mean of what each pose alone would add, dX = c + w x (X - p) with
 /// PoseUncertainty's (c, w), does not shrink with the number of frames. What changes from frame to frame is
 /// in the residuals, and so in the variance factor.
 void complete_covariance(const FrameBuffer& frames, const NoisePrior& prior, bool pose_errors,

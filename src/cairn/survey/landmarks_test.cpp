@@ -96,6 +96,10 @@ class PoseErrors : public testing::Test {
     landmark_.point_in_world = points_[0].position;
     landmark_.redundancy = 15;
     landmark_.squared_error_sum = 20;
+    landmark_.information.pixels = Eigen::Vector3d(1, 0.5, 0.25).asDiagonal();
+    landmark_.information.pixel_errors = 20;
+    landmark_.information.pixel_redundancy = 15;
+    landmark_.information.observations = 6;
   }
   void be_uncertain(int first, int last) {
     for (int i = first; i <= last; ++i)
@@ -157,10 +161,11 @@ TEST_F(PoseErrors, add_nothing_where_they_are_not_wanted) {
 
 TEST_F(PoseErrors, join_the_covariance) {
   be_uncertain(0, 5);
-  landmark_.cofactor = Eigen::Vector3d(1, 2, 3).asDiagonal();
   complete_covariance(frames_, {}, true, landmark_);
-  EXPECT_EQ(landmark_.covariance(),
-            landmark_.variance_factor * landmark_.cofactor + landmark_.pose_covariance);
+  const double factor = VariancePrior().factor(20, 15);
+  const Eigen::Matrix3d by_images = Eigen::Vector3d(factor, 2 * factor, 4 * factor).asDiagonal();
+  EXPECT_LT((landmark_.image_covariance - by_images).norm(), 1e-12);
+  EXPECT_EQ(landmark_.covariance(), landmark_.image_covariance + landmark_.pose_covariance);
 }
 
 }  // namespace

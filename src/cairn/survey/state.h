@@ -25,7 +25,7 @@ struct SurveyState {
   KeyframeId first_open_pose{0};        ///< first frame whose pose may still change
   std::vector<SurveyLandmark> pending;  ///< cleaned landmarks that later ones may be merged with
   VarianceModel variance;
-  SharedErrorModel shared;
+  LandmarkNoiseModel noise;
   SurveyCounts counts;
   std::vector<HeldOutFrame> held_out;  ///< frames that were written and located without their observations
 };

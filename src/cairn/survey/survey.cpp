@@ -228,7 +228,7 @@ class SurveyPipeline {
     result_.times.writing = times.writing;
     result_.noise = state.variance.prior();
     result_.held_out = state.held_out;
-    result_.shared_share = state.shared.share();
+    result_.landmark_noise = state.noise.noise();
     const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.counts.frames));
     result_.moved_rms_m = std::sqrt(state.counts.moved_squared_m / frames);
     result_.turned_rms_deg = std::sqrt(state.counts.turned_squared_rad / frames) * 180 / std::numbers::pi;

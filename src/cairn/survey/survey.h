@@ -13,12 +13,12 @@
 #include "cairn/observe/row_errors.h"
 #include "cairn/optimize/disparity_calibration.h"
 #include "cairn/optimize/disparity_noise_estimate.h"
+#include "cairn/optimize/landmark_noise.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/survey/cleaning.h"
 #include "cairn/survey/options.h"
 #include "cairn/survey/pose_check.h"
-#include "cairn/survey/variance_model.h"
 
 namespace cairn {
 
@@ -71,8 +71,8 @@ struct SurveyResult {
   SurveyCounts counts;
   SurveyTimes times;            ///< of this run, without runs that it resumes
   std::int64_t resumed_at = 0;  ///< frames of the sequence that earlier runs processed; 0 for a new run
-  double shared_share = 0;      ///< of the observations' variance, see SharedErrorModel
   VariancePrior noise;  ///< how noisy the observations are, in units of the assumed standard deviations
+  LandmarkNoise landmark_noise;                ///< what landmarks show of their observations' noise
   double moved_rms_m = 0, turned_rms_deg = 0;  ///< RMS change of poses by smoothing
   /// Root mean square over the landmarks of their standard deviation along the worst direction, metres: from
   /// the images, and from the poses' stated deviations.

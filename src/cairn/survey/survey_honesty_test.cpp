@@ -176,10 +176,9 @@ class StreetMapper {
     for (const SurveyLandmark& landmark : adjusted.landmarks)
       variance_.add(landmark.squared_error_sum, landmark.redundancy);
     for (SurveyLandmark& landmark : adjusted.landmarks) {
-      complete_covariance(frames_, {variance_.prior(), shared_}, true, landmark);
-      shared_.add(landmark.half_difference / landmark.variance_factor,
-                  static_cast<int>(landmark.observations.size()));
-      if (!failed_rule(landmark.indicators, landmark.covariance(), options_.cleaning))
+      complete_covariance(frames_, {variance_.prior(), noise_.noise()}, true, landmark);
+      noise_.add(landmark.information);
+      if (!failed_rule(landmark.indicators, landmark.own_covariance(), options_.cleaning))
         landmarks_.push_back(std::move(landmark));
     }
   }
@@ -191,7 +190,7 @@ class StreetMapper {
   FrameBuffer frames_;
   std::vector<Track> tracks_;
   VarianceModel variance_;
-  SharedErrorModel shared_;
+  LandmarkNoiseModel noise_;
   std::vector<SurveyLandmark> landmarks_;
 };
 

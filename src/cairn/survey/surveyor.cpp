@@ -42,7 +42,7 @@ void count_residuals(const Rig& rig, const FrameBuffer& frames, const SurveyLand
 }
 
 void count_uncertainty(const SurveyLandmark& landmark, SurveyCounts& counts) {
-  const double by_images = largest_std(landmark.shared_factor * landmark.own_covariance()),
+  const double by_images = largest_std(landmark.image_covariance),
                by_poses = largest_std(landmark.pose_covariance);
   counts.image_variance_m2 += by_images * by_images;
   counts.pose_variance_m2 += by_poses * by_poses;
@@ -162,14 +162,14 @@ void Surveyor::adjust_settled_tracks(const Executor& executor) {
     state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
   std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
   times_.adjustment += watch.lap();
-  const NoisePrior prior{state_.variance.prior(), state_.shared};
+  const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
   counts.merged +=
       merge_duplicates({rig_, state_.frames, prior, options_}, std::move(cleaned), state_.pending);
   times_.merging += watch.lap();
 }
 
 std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landmarks) {
-  const NoisePrior prior{state_.variance.prior(), state_.shared};
+  const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
   std::vector<SurveyLandmark> kept;
   for (SurveyLandmark& landmark : landmarks) {
     complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
@@ -178,8 +178,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
       ++state_.counts.cleaned[static_cast<std::size_t>(*rule)];
       continue;
     }
-    state_.shared.add(landmark.half_difference / landmark.variance_factor,
-                      static_cast<int>(landmark.observations.size()));
+    state_.noise.add(landmark.information);
     kept.push_back(std::move(landmark));
   }
   return kept;
@@ -189,7 +188,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
 void Surveyor::write_landmarks(KeyframeId seen_before) {
   Stopwatch watch;
   std::vector<SurveyLandmark> later;
-  const NoisePrior prior{state_.variance.prior(), state_.shared};
+  const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
   HoldOut hold_out(rig_, options_, prior, state_.frames);
   for (SurveyLandmark& landmark : state_.pending) {
     if (landmark.observations.back().keyframe >= seen_before) {
@@ -199,6 +198,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
     for (const ObservationRef& observation : landmark.observations)
       state_.frames[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)] =
           state_.next_landmark;
+    complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
     hold_out.add(landmark);
     writer_.add_landmark(finished(state_.frames, landmark));
     ++state_.next_landmark.value;

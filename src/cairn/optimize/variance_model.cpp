@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/survey/variance_model.h"
+#include "cairn/optimize/variance_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,7 @@ constexpr double kMinFreedom = 2.1;      // with 2 the t distribution has no cov
 constexpr double kMaxFreedom = 1e3;      // more is the same as all landmarks alike
 constexpr double kMinFactor = 1e-4;      // s^2 of a fit without residuals, whose logarithm counts for nothing
 
-double shifted_log(double squared_error_sum, int redundancy) {
-  const double freedom = redundancy;
+double shifted_log(double squared_error_sum, double freedom) {
   return std::log(std::max(kMinFactor, squared_error_sum / freedom)) - digamma(freedom / 2) +
          std::log(freedom / 2);
 }
@@ -48,13 +47,13 @@ double inverse_trigamma(double value) {
   return std::exp((low + high) / 2);
 }
 
-void VarianceModel::add(double squared_error_sum, int redundancy) {
+void VarianceModel::add(double squared_error_sum, double redundancy) {
   require(redundancy >= 1, "a landmark with redundancy");
   const double e = shifted_log(squared_error_sum, redundancy);
   ++sums_.count;
   sums_.log += e;
   sums_.log_squared += e * e;
-  sums_.noise += trigamma(static_cast<double>(redundancy) / 2);
+  sums_.noise += trigamma(redundancy / 2);
 }
 
 VariancePrior VarianceModel::prior() const {

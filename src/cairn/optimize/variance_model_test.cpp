@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cairn/survey/variance_model.h"
+#include "cairn/optimize/variance_model.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ struct VariancePrior {
   double scale = 1;    ///< s0^2
 
   /// Computes the a-posteriori variance factor of a landmark.
-  [[nodiscard]] double factor(double squared_error_sum, int redundancy) const {
+  [[nodiscard]] double factor(double squared_error_sum, double redundancy) const {
     return (freedom * scale + squared_error_sum) / (freedom + redundancy - 2);
   }
 };
@@ -29,7 +29,7 @@ struct VariancePrior {
 class VarianceModel {
  public:
   /// Adds a landmark. Throws PreconditionError if `redundancy` is below 1.
-  void add(double squared_error_sum, int redundancy);
+  void add(double squared_error_sum, double redundancy);
   /// Returns the prior of the landmarks added; the default prior until there are 100.
   [[nodiscard]] VariancePrior prior() const;
 

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cairn/optimize/landmark_noise.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "cairn/core/error.h"
+#include "cairn/geometry/covariance.h"
+
+namespace cairn {
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr std::int64_t kFewest = 128, kEvery = 2048;  // landmarks
+constexpr std::size_t kMostSamples = 4096;
+constexpr double kMostShare = 0.995;      // of disparities: above, parallax says nothing
+constexpr double kLeastRedundancy = 0.5;  // less says nothing of the noise
+constexpr double kLeastErrors = 1e-4;     // per redundancy: a fit without residuals
+
+/// Adds up what the observations of a point say.
+class InformationSum {
+ public:
+  InformationSum(const Rig& rig, const Vector3d& point_in_world)
+      : rig_(rig), point_in_world_(point_in_world) {}
+
+  void add(const CameraFromWorld& camera, const Observation& seen) {
+    const Vector3d point = camera * point_in_world_;
+    const Matrix3d jacobian = rig_.projection_jacobian(point) * Rigid3(camera).matrix3();
+    const Vector3d weights = inverse_variances(seen),
+                   error = rig_.project(point) - Vector3d(seen.u, seen.v, seen.d);
+    const auto of_pixel = jacobian.topRows<2>();
+    sum_.pixels.noalias() += weights[0] * of_pixel.transpose() * of_pixel;
+    sum_.pixel_errors += weights[0] * error.head<2>().squaredNorm();
+    ++sum_.observations;
+    if (!seen.has_disparity()) return;
+    ++disparities_;
+    sum_.disparities.noalias() += weights[2] * jacobian.row(2).transpose() * jacobian.row(2);
+    sum_.disparity_errors += weights[2] * error[2] * error[2];
+    mean_gradient_ += weights[2] * jacobian.row(2).transpose();
+    weighted_error_ += weights[2] * error[2];
+    weight_ += weights[2];
+  }
+
+  [[nodiscard]] LandmarkInformation finish() {
+    const Matrix3d inverse = (sum_.pixels + sum_.disparities).inverse();
+    const double by_disparities = (inverse * sum_.disparities).trace();  // of the three values of the point
+    sum_.pixel_redundancy = 2.0 * sum_.observations - (3 - by_disparities);
+    sum_.disparity_redundancy = disparities_ - by_disparities;
+    if (disparities_ > 0) compare_depths(inverse);
+    return sum_;
+  }
+
+ private:
+  /// Compares what disparities and pixels say of the depth, with the inverse N^-1 of all information: the
+  /// mean error m of disparities is e - g^T N^-1 (J_p^T W_p e_p + J_d^T W_d e_d) / W before and after the
+  /// fit.
+  void compare_depths(const Matrix3d& inverse) {
+    const Vector3d gain = inverse * mean_gradient_;
+    const double by_disparities = gain.dot(sum_.disparities * gain) / weight_;
+    sum_.disparity_share = std::clamp(mean_gradient_.dot(gain) / weight_, 0.0, 1.0);
+    if (sum_.disparity_share >= kMostShare) return;
+    sum_.disagreement = weighted_error_ * weighted_error_ / weight_;
+    sum_.disagreement_by_pixels = gain.dot(sum_.pixels * gain) / weight_;
+    sum_.disagreement_by_disparities = std::max(0.0, 1 - 2 * sum_.disparity_share + by_disparities);
+  }
+
+  const Rig& rig_;
+  Vector3d point_in_world_;
+  LandmarkInformation sum_;
+  int disparities_ = 0;
+  Vector3d mean_gradient_ = Vector3d::Zero();
+  double weighted_error_ = 0, weight_ = 0;
+};
+
+/// Computes the typical ratio of errors and redundancies: the mean of logarithms, which blurred landmarks
+/// hardly move. 1 if there are none.
+template <class Samples>
+double typical(const Samples& samples, double LandmarkNoiseModel::Sample::*errors,
+               double LandmarkNoiseModel::Sample::*redundancy) {
+  double sum = 0, count = 0;
+  for (const auto& sample : samples) {
+    if (!(sample.*redundancy > 1)) continue;
+    sum += std::log(std::max(kLeastErrors, sample.*errors / sample.*redundancy));
+    ++count;
+  }
+  return count > 0 ? std::exp(sum / count) : 1;
+}
+
+/// Estimates variance components: rows of `parts` times them, plus `known`, are the variances of errors whose
+/// squares are `squares`, each counting as `weights` of them. Squares are cut off at `cut` variances, and
+/// what remains is divided by its share `kept` of the normal distribution.
+struct ComponentProblem {
+  Eigen::ArrayXXd parts;
+  ArrayXd known, squares, weights;
+  double cut = 1, kept = 1;
+
+  [[nodiscard]] ArrayXd solve() const {
+    constexpr int kMaxIterations = 200;
+    constexpr double kConverged = 1e-4, kTiny = 1e-12;  // relative
+    const double mean = (weights * squares).sum() / weights.sum();
+    ArrayXd components =
+        mean / (static_cast<double>(parts.cols()) * (parts.colwise().mean().transpose() + kTiny));
+    for (int i = 0; i < kMaxIterations; ++i) {
+      const ArrayXd next = components * improvement(components, mean).max(kTiny);
+      const double change = (next - components).abs().maxCoeff() / (components.maxCoeff() + kTiny);
+      components = next;
+      if (change < kConverged) break;
+    }
+    return components;
+  }
+
+ private:
+  /// Returns by what one step of the iteration multiplies the components.
+  [[nodiscard]] ArrayXd improvement(const ArrayXd& components, double mean) const {
+    constexpr double kLeast = 1e-9;  // of the mean square, so that nothing is divided by 0
+    const ArrayXd variances = ((parts.matrix() * components.matrix()).array() + known).max(kLeast * mean);
+    const ArrayXd found = squares.min(cut * variances) / kept;
+    const ArrayXd by_found = weights * found / variances.square(), by_model = weights / variances;
+    const ArrayXd above = (parts.colwise() * by_found).colwise().sum().transpose();
+    const ArrayXd below = (parts.colwise() * by_model).colwise().sum().transpose();
+    return (below > 0).select((above / below.max(1e-300)).sqrt(), ArrayXd::Zero(components.size()));
+  }
+};
+
+/// Estimates the noise of the samples.
+class NoiseFit {
+ public:
+  using Sample = LandmarkNoiseModel::Sample;
+
+  explicit NoiseFit(const std::vector<Sample>& samples) : samples_(samples) {
+    noise_.pixel_scale = typical(samples, &Sample::pixel_errors, &Sample::pixel_redundancy);
+    noise_.disparity_scale = typical(samples, &Sample::disparity_errors, &Sample::disparity_redundancy);
+    fit_own();
+    fit_scatter();
+    fit_disagreement();
+  }
+
+  [[nodiscard]] const LandmarkNoise& noise() const { return noise_; }
+
+ private:
+  void fit_own() {
+    VarianceModel model;
+    for (const Sample& sample : samples_)
+      if (redundancy(sample) >= 1) model.add(errors(sample), redundancy(sample));
+    noise_.own = model.prior();
+    for (const Sample& sample : samples_)
+      factors_.push_back(noise_.own.factor(errors(sample), redundancy(sample)));
+  }
+  [[nodiscard]] double errors(const Sample& sample) const {
+    return sample.pixel_errors / noise_.pixel_scale + sample.disparity_errors / noise_.disparity_scale;
+  }
+  [[nodiscard]] static double redundancy(const Sample& sample) {
+    return sample.pixel_redundancy + sample.disparity_redundancy;
+  }
+
+  void fit_scatter() {
+    const ArrayXd disparities = fit_scatter(2, &Sample::disparity_errors, &Sample::disparity_redundancy);
+    if (disparities.size() > 0) noise_.disparities = {disparities[1], disparities[0]};
+    const ArrayXd pixels = fit_scatter(1, &Sample::pixel_errors, &Sample::pixel_redundancy);
+    if (pixels.size() > 0) noise_.pixels[0] = pixels[0];
+  }
+  /// Returns the parts of the variance: in proportion to a landmark's own factor and, if there are two, of
+  /// all alike; none if too few landmarks show them.
+  [[nodiscard]] ArrayXd fit_scatter(Eigen::Index parts, double Sample::*errors,
+                                    double Sample::*redundancy) const {
+    const auto used = select([&](const Sample& sample) { return sample.*redundancy > kLeastRedundancy; });
+    if (static_cast<std::int64_t>(used.size()) < kFewest) return {};
+    ComponentProblem problem = problem_of(used, parts);
+    problem.cut = 6;
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const Sample& sample = samples_[used[i]];
+      const auto row = static_cast<Eigen::Index>(i);
+      problem.parts(row, 0) = factors_[used[i]];
+      problem.squares[row] = sample.*errors / (sample.*redundancy);
+      problem.weights[row] = sample.*redundancy;
+    }
+    return problem.solve();
+  }
+
+  void fit_disagreement() {
+    const auto used = select([](const Sample& sample) { return sample.disagreement > 0; });
+    if (static_cast<std::int64_t>(used.size()) < kFewest) return;
+    ComponentProblem problem = problem_of(used, 2);
+    problem.cut = 2.25;     // 1.5 standard deviations
+    problem.kept = 0.7785;  // mean of min(x^2, 2.25) of a standard normal x
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      const Sample& sample = samples_[used[i]];
+      const auto row = static_cast<Eigen::Index>(i);
+      const double factor = factors_[used[i]], unit = 1 / (1 - sample.disparity_share);
+      const double by_pixels = unit * factor * sample.disagreement_by_pixels;
+      problem.parts.row(row) << by_pixels * sample.observations, by_pixels * (1 - sample.disparity_share);
+      problem.known[row] =
+          noise_.pixels[0] * by_pixels + (noise_.disparities[0] + noise_.disparities[1] * factor) * unit *
+                                             sample.disagreement_by_disparities;
+      problem.squares[row] = unit * sample.disagreement;
+    }
+    const ArrayXd found = problem.solve();
+    noise_.pixels[1] = found[0];
+    noise_.pixels[2] = found[1];
+  }
+
+  template <class Condition>
+  [[nodiscard]] std::vector<std::size_t> select(Condition condition) const {
+    std::vector<std::size_t> selected;
+    for (std::size_t i = 0; i < samples_.size(); ++i)
+      if (condition(samples_[i])) selected.push_back(i);
+    return selected;
+  }
+  [[nodiscard]] static ComponentProblem problem_of(const std::vector<std::size_t>& used, Eigen::Index parts) {
+    const auto count = static_cast<Eigen::Index>(used.size());
+    ComponentProblem problem;
+    problem.parts = Eigen::ArrayXXd::Ones(count, parts);
+    problem.known = ArrayXd::Zero(count);
+    problem.squares = ArrayXd::Zero(count);
+    problem.weights = ArrayXd::Ones(count);
+    return problem;
+  }
+
+  const std::vector<Sample>& samples_;
+  LandmarkNoise noise_;
+  std::vector<double> factors_;
+};
+
+}  // namespace
+
+LandmarkInformation information_of(const Rig& rig, std::span<const CameraFromWorld> cameras,
+                                   std::span<const CameraObservation> observations,
+                                   const Vector3d& point_in_world) {
+  InformationSum sum(rig, point_in_world);
+  for (const CameraObservation& observation : observations)
+    sum.add(cameras[static_cast<std::size_t>(observation.camera)], observation.seen);
+  return sum.finish();
+}
+
+Matrix3d LandmarkNoise::covariance_of(const LandmarkInformation& landmark) const {
+  const double errors = landmark.pixel_errors / pixel_scale + landmark.disparity_errors / disparity_scale;
+  const double factor = own.factor(errors, landmark.pixel_redundancy + landmark.disparity_redundancy);
+  const double of_pixels =
+      factor * (pixels[0] + pixels[1] * landmark.observations + pixels[2] * (1 - landmark.disparity_share));
+  const double of_disparities = disparities[0] + disparities[1] * factor;
+  const Matrix3d inverse = (landmark.pixels + landmark.disparities).inverse();
+  const Matrix3d covariance =
+      inverse * (of_pixels * landmark.pixels + of_disparities * landmark.disparities) * inverse;
+  require(covariance.allFinite(), "observations that determine the point");
+  return as_covariance(covariance);
+}
+
+void LandmarkNoiseModel::add(const LandmarkInformation& landmark) {
+  const Sample sample{landmark.pixel_errors,
+                      landmark.disparity_errors,
+                      landmark.pixel_redundancy,
+                      landmark.disparity_redundancy,
+                      landmark.disparity_share,
+                      landmark.disagreement,
+                      landmark.disagreement_by_pixels,
+                      landmark.disagreement_by_disparities,
+                      static_cast<double>(landmark.observations)};
+  if (samples_.size() < kMostSamples)
+    samples_.push_back(sample);
+  else
+    samples_[static_cast<std::size_t>(count_) % kMostSamples] = sample;
+  ++count_;
+  const bool is_due =
+      count_ % kEvery == 0 || (count_ >= kFewest && std::has_single_bit(static_cast<std::uint64_t>(count_)));
+  if (is_due) noise_ = NoiseFit(samples_).noise();
+}
+
+}  // namespace cairn
