@@ -178,6 +178,11 @@ Option CommandLine::add_option(const std::string& names, std::vector<double>& va
   return list_option(*app_->add_option(names, value, description));
 }
 
+Option CommandLine::add_option(const std::string& names, std::array<double, 2>& value,
+                               const std::string& description) {
+  return Option(*app_->add_option(names, value, description));
+}
+
 Option CommandLine::add_option(const std::string& names, std::array<double, 3>& value,
                                const std::string& description) {
   return Option(*app_->add_option(names, value, description));

@@ -78,6 +78,7 @@ class CommandLine {
   Option add_option(const std::string& names, std::vector<std::string>& value,
                     const std::string& description);
   Option add_option(const std::string& names, std::vector<double>& value, const std::string& description);
+  Option add_option(const std::string& names, std::array<double, 2>& value, const std::string& description);
   Option add_option(const std::string& names, std::array<double, 3>& value, const std::string& description);
   Option add_flag(const std::string& names, bool& value, const std::string& description);
 

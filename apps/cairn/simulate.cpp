@@ -26,6 +26,7 @@ struct Arguments {
   double pose_time_offset_s = 0;
   std::array<double, 3> lever_arm_error{}, boresight_error_deg{};
   std::string route = "block";
+  std::array<double, 2> pose_error{}, pose_jitter{};  ///< metres, degrees
 };
 
 /// What every simulated sequence has, with `Options` for its own defaults.
@@ -99,6 +100,24 @@ void add_body_poses(CommandLine& street, Arguments& arguments) {
       .type_name("RX RY RZ");
 }
 
+/// Adds the errors of given poses.
+void add_pose_errors(CommandLine& app, PoseErrorOptions& options, Arguments& arguments) {
+  app.add_option("--pose-error", arguments.pose_error,
+                 "standard deviations, metres along (0 to 100) and degrees about (0 to 10) each axis of the "
+                 "world, of an error of the poses that wanders as that of GNSS/INS: also given_poses.txt, "
+                 "poses with errors and their deviations, for --poses; the truth stays exact. With poses of "
+                 "the body: given_body_poses.csv")
+      .type_name("M DEG");
+  app.add_option("--pose-error-time", options.correlation_time_s,
+                 "seconds after which the correlation of that error has fallen to 1/e")
+      .check(number_in(1e-3, 1e5))
+      .show_default()
+      .type_name("S");
+  app.add_option("--pose-jitter", arguments.pose_jitter,
+                 "as --pose-error, of an error that is new in each pose; one does not need the other")
+      .type_name("M DEG");
+}
+
 void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arguments& arguments) {
   add_shared_options(street, options, arguments);
   add_noise_option(street, "camera", "camera: image noise and varying gain", arguments);
@@ -113,9 +132,17 @@ void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arg
       .type_name("NAME");
   add_planted_errors(street, options, arguments);
   add_body_poses(street, arguments);
+  add_pose_errors(street, options.pose_error, arguments);
   street.add_flag(
       "--depth-truth", arguments.depth_truth,
       "also the left camera's true depth, 16 bit, 1/256 m, as cairn evaluate --landmarks needs it");
+}
+
+void take_pose_errors(const Arguments& arguments, PoseErrorOptions& options) {
+  options.position_std = arguments.pose_error[0];
+  options.rotation_std_deg = arguments.pose_error[1];
+  options.jitter_position_std = arguments.pose_jitter[0];
+  options.jitter_rotation_std_deg = arguments.pose_jitter[1];
 }
 
 void print_report(const Arguments& arguments, const SimulationReport& report, const std::string& folder,
@@ -128,6 +155,7 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
   if (arguments.noise == "none") options.noise = RgbdNoise::none;
+  take_pose_errors(arguments, options.pose_error);
   options.validate();
   OutputFolder output(arguments.output, "sequence");
   const auto progress = make_progress(arguments.common);
@@ -160,6 +188,7 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
   if (arguments.noise == "none") options.noise = StreetNoise::none;
   options.right_rotation_deg = vector_of(arguments.right_rotation_deg);
   options.body_poses = body_poses_of(arguments);
+  take_pose_errors(arguments, options.pose_error);
   if (arguments.route == "straight") options.route = StreetRoute::straight;
   options.validate();
   OutputFolder output(arguments.output, "sequence");
@@ -191,6 +220,7 @@ int run_simulate(int argc, char** argv) {
       .type_name("FACTOR");
   room.add_flag("--depth-truth", arguments.depth_truth,
                 "also the true depth, as the depth images, which cairn evaluate --landmarks needs");
+  add_pose_errors(room, room_options.pose_error, arguments);
 
   CommandLine& street = app.add_command("street", "drive around a block with a stereo camera, KITTI layout");
   add_street_options(street, street_options, arguments);

@@ -23,7 +23,9 @@ constexpr std::array<KnownColumn, kTableColumns> kKnown{
      {"std_north", Quantity::length}, {"std_up", Quantity::length},     {"std_roll", Quantity::angle},
      {"std_pitch", Quantity::angle},  {"std_heading", Quantity::angle}, {"x", Quantity::length},
      {"y", Quantity::length},         {"z", Quantity::length},          {"qx", Quantity::none},
-     {"qy", Quantity::none},          {"qz", Quantity::none},           {"qw", Quantity::none}}};
+     {"qy", Quantity::none},          {"qz", Quantity::none},           {"qw", Quantity::none},
+     {"std_x", Quantity::length},     {"std_y", Quantity::length},      {"std_z", Quantity::length},
+     {"std_rx", Quantity::angle},     {"std_ry", Quantity::angle},      {"std_rz", Quantity::angle}}};
 
 struct Synonym {
   std::string_view name;

@@ -37,9 +37,15 @@ enum class TableColumn : std::uint8_t {
   qx,
   qy,
   qz,
-  qw
+  qw,
+  std_x,
+  std_y,
+  std_z,
+  std_rx,
+  std_ry,
+  std_rz
 };
-inline constexpr std::size_t kTableColumns = 24;
+inline constexpr std::size_t kTableColumns = 30;
 
 /// Three columns that belong together.
 using ColumnTriple = std::array<TableColumn, 3>;
@@ -51,6 +57,9 @@ inline constexpr ColumnTriple kPlaceDeviations{TableColumn::std_east, TableColum
 inline constexpr ColumnTriple kAngleDeviations{TableColumn::std_roll, TableColumn::std_pitch,
                                                TableColumn::std_heading};
 inline constexpr ColumnTriple kPosition{TableColumn::x, TableColumn::y, TableColumn::z};
+inline constexpr ColumnTriple kPositionDeviations{TableColumn::std_x, TableColumn::std_y, TableColumn::std_z};
+inline constexpr ColumnTriple kRotationDeviations{TableColumn::std_rx, TableColumn::std_ry,
+                                                  TableColumn::std_rz};
 inline constexpr std::array<TableColumn, 4> kQuaternion{TableColumn::qx, TableColumn::qy, TableColumn::qz,
                                                         TableColumn::qw};
 

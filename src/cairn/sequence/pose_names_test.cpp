@@ -2,6 +2,8 @@
 // Files of poses whose columns are named: the names decide, whatever their order.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "cairn/sequence/given_poses.h"
 #include "cairn/sequence/sequence.h"
 #include "cairn/testing/core/message_of.h"
@@ -72,6 +74,21 @@ TEST_F(PoseNamesTest, covariances_behind_the_poses_may_be_there_or_not) {
       (folder_ / "poses.txt").string() +
           ":3: expected 14 values (timestamp(s), tx, ty, tz, qx, qy, qz, qw, Pr11, Pr12, Pr13, Pt11, Pt12, "
           "Pt13), found 9.\n  Correct or delete the line.");
+}
+
+/// They are along and about the axes of the world, whatever the pose.
+TEST_F(PoseNamesTest, standard_deviations_beside_quaternions_are_read) {
+  const std::string names = "# time_s x_m y_m z_m qx qy qz qw std_x_m std_y_m std_z_m";
+  const std::string row = "\n0.1 1 2 3 0.2 -0.4 0.4 0.8 0.1 0.2 0.3";
+  expect_pose(names + row + "\n");
+  const PoseUncertainty place = read(names + row + "\n").frames[1]->uncertainty.value();
+  EXPECT_LT((place.position.diagonal() - Eigen::Vector3d(0.01, 0.04, 0.09)).norm(), 1e-15);
+  EXPECT_EQ(place.rotation, Eigen::Matrix3d::Zero());
+  const PoseUncertainty both =
+      read(names + " std_rx_rad std_ry_deg std_rz" + row + " 0.01 1 2\n").frames[1]->uncertainty.value();
+  const Eigen::Vector3d angles(0.01, std::numbers::pi / 180, 2 * std::numbers::pi / 180);
+  EXPECT_LT((both.rotation.diagonal() - angles.cwiseAbs2()).norm(), 1e-15);
+  EXPECT_FALSE(read("time,x,y,z,qx,qy,qz,qw\n0.1,1,2,3,0.2,-0.4,0.4,0.8\n").frames[1]->uncertainty);
 }
 
 TEST_F(PoseNamesTest, euroc_poses_are_read_however_their_first_line_begins) {
@@ -155,6 +172,8 @@ TEST_F(PoseNamesTest, names_that_leave_the_quaternion_open_are_refused) {
       {"x,y,z,qx,qy,qz,qw", "'time' or 'frame' among the columns: "},
       {"time,x,y,z,qx,qy,qz,qw,quat_w", "one column 'qw', found 'qw' and 'quat_w'.\n  Delete one."},
       {"time,x (km),y,z,qx,qy,qz,qw", "'x' in m, found 'x (km)'.\n  Convert the column"},
+      {"time,x,y,z,qx,qy,qz,qw,std_x,std_y", "'std_z' among the columns: "},
+      {"time,x,y,z,qx,qy,qz,qw,std_rz", "'std_rx' among the columns: "},
       {"time (min),x,y,z,qx,qy,qz,qw", "'time' in s or ms or us or ns, found 'time (min)'"},
   };
   for (const Case& broken : cases) {

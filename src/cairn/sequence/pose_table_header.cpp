@@ -78,7 +78,7 @@ NameCounts count_names(const std::vector<std::string>& names) {
       ++counts.quaternion;
     else if (std::find(kPosition.begin(), kPosition.end(), column) != kPosition.end())
       ++counts.position;
-    else if (column != TableColumn::time && column != TableColumn::frame)
+    else if (column != TableColumn::time && column != TableColumn::frame && column < TableColumn::x)
       ++counts.table;
   }
   return counts;
@@ -201,7 +201,8 @@ bool has_any(const TableHeader& header, const ColumnTriple& triple) {
            "{} among the columns: time (s, ns) or frame; latitude, longitude (deg), height (m) or east, "
            "north, up (m); roll, pitch, heading (deg), or for all of these x, y, z (m), qx, qy, qz, qw; "
            "perhaps "
-           "std_east, std_north, std_up (m), std_roll, std_pitch, std_heading (deg)",
+           "std_east, std_north, std_up (m), std_roll, std_pitch, std_heading (deg), with quaternions std_x, "
+           "std_y, std_z (m), std_rx, std_ry, std_rz (deg)",
            missing),
        fmt::format("{}", fmt::join(header.names, ", ")), "Add or rename columns (docs/poses.md).");
 }
@@ -259,7 +260,7 @@ bool names_quaternions(const TableHeader& header) {
 void check_table_header(const fs::path& path, TableHeader& header) {
   for (std::size_t field = 0; field < header.names.size(); ++field) {
     const ColumnName name = split_name(header.names[field]);
-    if (const auto meaning = find_column(name.base))
+    if (const auto meaning = find_column(name.base); meaning && meaning->column < TableColumn::std_x)
       place_column(path, field, name, *meaning, header);
     else
       refuse_if_mistakable(path, header, field, name.base);
@@ -296,6 +297,9 @@ void check_quaternion_header(const fs::path& path, TableHeader& header) {
   if (!frame && !header.has(TableColumn::time)) fail_missing(path, header, "'time' or 'frame'");
   expect_all(path, header, kPosition);
   expect_all(path, header, kQuaternion);
+  for (const ColumnTriple& triple : {kPositionDeviations, kRotationDeviations}) {
+    if (has_any(header, triple)) expect_all(path, header, triple);
+  }
 }
 
 }  // namespace cairn

@@ -48,9 +48,10 @@ struct TableHeader {
 /// a column is missing, occurs twice or has an unknown unit, or if an unknown name may be a misspelt one.
 void check_table_header(const std::filesystem::path& path, TableHeader& header);
 
-/// Finds the columns of a table with quaternions: a time or a frame, x, y, z, qx, qy, qz, qw. Leaves out
-/// other columns. Throws InputError if a column is missing, occurs twice or has an unknown unit, or if the
-/// quaternion's components are numbered.
+/// Finds the columns of a table with quaternions: a time or a frame, x, y, z, qx, qy, qz, qw, and perhaps
+/// standard deviations std_x, std_y, std_z and std_rx, std_ry, std_rz. Leaves out other columns. Throws
+/// InputError if a column is missing, occurs twice or has an unknown unit, or if the quaternion's components
+/// are numbered.
 void check_quaternion_header(const std::filesystem::path& path, TableHeader& header);
 
 }  // namespace cairn

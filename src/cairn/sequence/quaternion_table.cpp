@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "cairn/core/error.h"
 #include "cairn/sequence/asl_sensor.h"
@@ -31,6 +32,16 @@ bool is_of_asl_layout(const fs::path& path, const TableHeader& header) {
   return by_names || path.filename() == "data.csv" || fs::exists(path.parent_path() / "sensor.yaml");
 }
 
+/// Sets the covariances of independent errors along and about the axes of the world.
+void read_deviations(const TableRow& row, const TableHeader& header, RecordedPose& pose) {
+  constexpr double kLargest = 1e6;  // metres; knows nothing
+  if (header.has(kPositionDeviations))
+    pose.place_covariance = covariance_of(row.deviations(kPositionDeviations, kLargest));
+  if (header.has(kRotationDeviations))
+    pose.rotation_covariance =
+        covariance_of(std::numbers::pi / 180 * row.deviations(kRotationDeviations, 180));
+}
+
 RecordedPose parse_row(const TableRow& row, const RowKeys& keys, const Rigid3& tracked_from_subject) {
   const Rigid3 world_from_subject =
       Rigid3{row.quaternion(), row.values(kPosition, kFarthest)} * tracked_from_subject;
@@ -49,8 +60,13 @@ void read_rows(const TextFile& file, const TableHeader& header, const RowKeys& k
   PoseCollector collector(recorded);
   for (const TextLine& line : rows) {
     const TableRow row(file, line, header);
-    row.lacks(kPosition) ? collector.leave_out(file, line, row.key(keys))
-                         : collector.add(file, line, parse_row(row, keys, tracked_from_subject));
+    if (row.lacks(kPosition)) {
+      collector.leave_out(file, line, row.key(keys));
+      continue;
+    }
+    RecordedPose pose = parse_row(row, keys, tracked_from_subject);
+    if (recorded.has_uncertainty) read_deviations(row, header, pose);
+    collector.add(file, line, pose);
   }
   collector.finish();
 }
@@ -111,6 +127,7 @@ RecordedPoses read_quaternion_table(const fs::path& path, TableHeader header, bo
   } else {
     recorded.format = has_blanks ? "TUM" : "table";
     recorded.subject = has_blanks ? PoseSubject::camera : PoseSubject::not_stated;
+    recorded.has_uncertainty = header.has(kPositionDeviations) || header.has(kRotationDeviations);
   }
   const std::vector<TextLine> rows = rows_below(header, file);
   expect_some(path, rows);

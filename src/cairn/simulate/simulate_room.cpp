@@ -83,6 +83,7 @@ void SimulateRoomOptions::validate() const {
          "camera", "a pinhole camera with pixels and focal lengths", camera.fx);
   expect(depth_scale > 0, "depth_scale", "units per metre above 0", depth_scale);
   expect(depth_noise >= 0 && depth_noise <= 100, "--depth-noise", "0 to 100 times a Kinect's", depth_noise);
+  pose_error.validate();
   expect(image_deviation >= 0, "image_deviation", "0 or more grey levels", image_deviation);
 }
 
@@ -113,6 +114,10 @@ Trajectory SimulatedRoom::truth() const {
   Trajectory truth;
   for (int i = 0; i < size(); ++i) truth.push_back({stamp_ns(i), world_from_camera(i)});
   return truth;
+}
+
+StampedPoses SimulatedRoom::given_poses() const {
+  return with_pose_errors(options_.pose_error, stamped_poses(truth()), options_.seed);
 }
 
 SimulatedRgbdFrame SimulatedRoom::render(int frame) const {

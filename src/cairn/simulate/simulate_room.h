@@ -10,6 +10,7 @@
 #include "cairn/sequence/calibration.h"
 #include "cairn/sequence/trajectory.h"
 #include "cairn/simulate/camera_path.h"
+#include "cairn/simulate/pose_error.h"
 #include "cairn/simulate/scene.h"
 #include "cairn/simulate/sensor_noise.h"
 
@@ -37,7 +38,8 @@ struct SimulateRoomOptions {
   /// Standard deviation of the image noise, grey levels; none with RgbdNoise::none.
   float image_deviation = 2;
   double depth_noise = 1;  ///< standard deviation of the depth, times a Kinect's; none with RgbdNoise::none
-  std::uint64_t seed = 1;  ///< determines the textures and all noise
+  PoseErrorOptions pose_error;  ///< of given poses; the truth has none
+  std::uint64_t seed = 1;       ///< determines the textures and all noise
 
   /// Throws InputError that names the option of the command line if no camera could have the value.
   void validate() const;
@@ -65,6 +67,9 @@ class SimulatedRoom {
   [[nodiscard]] std::int64_t stamp_ns(int frame) const;
   [[nodiscard]] WorldFromCamera world_from_camera(int frame) const;
   [[nodiscard]] Trajectory truth() const;
+  /// Returns the poses of the camera with the errors of SimulateRoomOptions::pose_error.
+  [[nodiscard]] StampedPoses given_poses() const;
+  [[nodiscard]] const PoseErrorOptions& pose_error() const { return options_.pose_error; }
   /// Renders a frame. Safe to call from several threads.
   [[nodiscard]] SimulatedRgbdFrame render(int frame) const;
 

@@ -103,6 +103,7 @@ void SimulateStreetOptions::validate() const {
   expect(route == StreetRoute::block || drive_length(*this) <= 1000, "--frames-count",
          "at most 1000 m on a straight street", frames_count);
   if (body_poses) body_poses->validate();
+  pose_error.validate();
   expect(image_deviation >= 0, "image_deviation", "0 or more grey levels", image_deviation);
 }
 
@@ -135,8 +136,8 @@ Rigid3 SimulatedStreet::stated_body_from_camera() {
   return {Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), {1.4, 0.3, 0.7}};
 }
 
-std::vector<std::pair<std::int64_t, Rigid3>> SimulatedStreet::body_poses() const {
-  std::vector<std::pair<std::int64_t, Rigid3>> poses;
+StampedPoses SimulatedStreet::body_poses() const {
+  StampedPoses poses;
   if (!options_.body_poses) return poses;
   const SimulatedBodyPoses& errors = *options_.body_poses;
   const Rigid3 stated = stated_body_from_camera();
@@ -152,6 +153,11 @@ std::vector<std::pair<std::int64_t, Rigid3>> SimulatedStreet::body_poses() const
     poses.emplace_back(std::llround(stamp * 1e9), camera * body_from_camera.inverse());
   }
   return poses;
+}
+
+StampedPoses SimulatedStreet::given_poses() const {
+  return with_pose_errors(options_.pose_error, options_.body_poses ? body_poses() : stamped_poses(truth()),
+                          options_.seed);
 }
 
 /// Returns the pose at a time in frames, which may lie between two of them.

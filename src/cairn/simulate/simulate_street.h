@@ -4,8 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "cairn/core/executor.h"
 #include "cairn/geometry/camera.h"
@@ -14,6 +12,7 @@
 #include "cairn/sequence/calibration.h"
 #include "cairn/sequence/trajectory.h"
 #include "cairn/simulate/camera_path.h"
+#include "cairn/simulate/pose_error.h"
 #include "cairn/simulate/scene.h"
 
 namespace cairn {
@@ -63,6 +62,7 @@ struct SimulateStreetOptions {
   double baseline_error_percent = 0;
   StreetRoute route = StreetRoute::block;
   std::optional<SimulatedBodyPoses> body_poses;  ///< nullopt: none
+  PoseErrorOptions pose_error;                   ///< of given poses; the truth has none
   StreetNoise noise = StreetNoise::camera;
   /// Standard deviation of the image noise, grey levels; none with StreetNoise::none.
   float image_deviation = 2;
@@ -101,7 +101,11 @@ class SimulatedStreet {
   [[nodiscard]] static Rigid3 stated_body_from_camera();
   /// Returns world_from_body with the stamps and errors of SimulateStreetOptions::body_poses, from stamp 0 to
   /// that of the last frame; empty without these.
-  [[nodiscard]] std::vector<std::pair<std::int64_t, Rigid3>> body_poses() const;
+  [[nodiscard]] StampedPoses body_poses() const;
+  /// Returns what a receiver gives: body_poses() if there are any, else those of the camera, with the errors
+  /// of SimulateStreetOptions::pose_error.
+  [[nodiscard]] StampedPoses given_poses() const;
+  [[nodiscard]] const PoseErrorOptions& pose_error() const { return options_.pose_error; }
   /// Renders a frame. Safe to call from several threads.
   [[nodiscard]] SimulatedStereoFrame render(int frame) const;
 

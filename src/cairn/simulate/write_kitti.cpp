@@ -56,6 +56,14 @@ std::string format_body_poses(const SimulatedStreet& street) {
   return text;
 }
 
+/// Writes the poses with planted errors, if there are any.
+void write_given_poses(const SimulatedStreet& street, const fs::path& folder) {
+  if (!street.pose_error().is_any()) return;
+  const bool are_of_body = street.calibration().body_from_camera.has_value();
+  write_file(folder / (are_of_body ? "given_body_poses.csv" : "given_poses.txt"),
+             format_pose_table(street.pose_error(), street.given_poses(), are_of_body ? ',' : ' '));
+}
+
 /// Writes left and right image of frame i; the paths written.
 std::vector<fs::path> write_pair(const fs::path& folder, int i, const GrayImage& left,
                                  const GrayImage& right) {
@@ -130,6 +138,7 @@ SimulationReport write_kitti(const SimulatedStreet& street, const fs::path& fold
     write_file(folder / "camera.yaml", format_calibration(street.calibration()));
     write_file(folder / "body_poses.csv", format_body_poses(street));
   }
+  write_given_poses(street, folder);
   return report_on(whole, frames);
 }
 

@@ -15,7 +15,9 @@ namespace cairn {
 
 /// Writes a simulated street. With `depth_truth`, also the left camera's true depth in a folder of that name,
 /// 16 bit, 256 units per metre, 0 if unknown. With poses of the body, also body_poses.csv in EuRoC's layout
-/// and a camera.yaml that states where the camera sits on the body.
+/// and a camera.yaml that states where the camera sits on the body. With errors of poses, also the poses with
+/// these and their standard deviations, as a table (docs/poses.md): given_poses.txt of the camera or, with
+/// poses of the body, given_body_poses.csv of that.
 SimulationReport write_kitti(const SimulatedStreet& street, const std::filesystem::path& folder,
                              bool depth_truth, const Executor& executor, Progress& progress);
 

@@ -61,6 +61,8 @@ SimulationReport write_tum(const SimulatedRoom& room, const fs::path& folder, co
   write_file(folder / "associations.txt", format_associations(truth));
   write_file(folder / "groundtruth.txt", format_tum_trajectory(truth));
   write_file(folder / "camera.yaml", format_calibration(room.calibration()));
+  if (room.pose_error().is_any())
+    write_file(folder / "given_poses.txt", format_pose_table(room.pose_error(), room.given_poses(), ' '));
   return report_on(whole, frames);
 }
 
