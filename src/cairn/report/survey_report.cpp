@@ -19,6 +19,10 @@
 namespace cairn {
 namespace {
 
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
 Json to_json(const PoseCheck& check) {
   return {{"verdict", to_string(check.verdict)},
           {"pairs", check.pairs},
@@ -27,7 +31,7 @@ Json to_json(const PoseCheck& check) {
           {"motion_by_images_m", check.image_motion_m},
           {"motion_by_poses_m", check.pose_motion_m},
           {"motion_in_image_px", check.flow_px},
-          {"error_px", std::isfinite(check.error_px) ? Json(check.error_px) : Json()}};
+          {"error_px", finite_or_null(check.error_px)}};
 }
 
 /// Holds the root mean squares by which held-out frames were missed: position (metres), rotation (degrees).
@@ -77,6 +81,23 @@ std::string describe(const HeldOutFigures& figures) {
       figures.to_given_deg);
 }
 
+Json to_json(const MovesInSigmas& moves) {
+  if (moves.frames == 0) return {{"moved_sigmas", Json()}, {"turned_sigmas", Json()}};
+  const auto both = [&](double MoveInSigmas::*part) {
+    return Json{{"median", finite_or_null(moves.median.*part)}, {"max", finite_or_null(moves.largest.*part)}};
+  };
+  return {{"moved_sigmas", both(&MoveInSigmas::position)}, {"turned_sigmas", both(&MoveInSigmas::rotation)}};
+}
+
+/// Returns the end of a line, or nothing if no pose that states deviations was moved.
+std::string describe(const MovesInSigmas& moves) {
+  if (moves.largest.position == 0 && moves.largest.rotation == 0) return {};
+  return fmt::format(
+      ":\n             by {:.2g} of their standard deviations (median; {:.2g} at most), turned by {:.2g} "
+      "({:.2g})",
+      moves.median.position, moves.largest.position, moves.median.rotation, moves.largest.rotation);
+}
+
 Json to_json(const SurveyResult& result) {
   const SurveyCounts& counts = result.counts;
   Json json;
@@ -99,6 +120,7 @@ Json to_json(const SurveyResult& result) {
   json["noise"] = to_json(result.noise, result.landmark_noise);
   json["held_out"] = to_json(held_out_figures(result.held_out));
   json["smoothed_poses"] = {{"moved_rms_m", result.moved_rms_m}, {"turned_rms_deg", result.turned_rms_deg}};
+  json["smoothed_poses"].update(to_json(result.moves));
   json["uncertainty"] = {{"by_images_rms_m", result.image_std_rms_m},
                          {"by_poses_rms_m", result.pose_std_rms_m},
                          {"dominated_by_poses", counts.dominated_by_poses},
@@ -166,6 +188,7 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
   if (result.moved_rms_m > 0)
     text.add(", moved by {:.1f} cm and {:.3f} degrees (RMS) to agree with the images",
              100 * result.moved_rms_m, result.turned_rms_deg);
+  text.add("{}", describe(result.moves));
   if (result.pose_check.verdict == PoseVerdict::contradiction)
     text.add("\n             they contradict the images: {}", describe(result.pose_check));
   const std::string pair = describe(

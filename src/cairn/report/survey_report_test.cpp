@@ -77,6 +77,30 @@ TEST(SurveyText, tells_what_is_out_of_the_ordinary) {
   EXPECT_NE(text.find("\ncolmap       out/map/colmap, with --image_path data/images\n"), std::string::npos);
 }
 
+TEST(SurveyText, says_by_how_many_deviations_poses_were_moved) {
+  SurveyResult result = small_survey();
+  result.moved_rms_m = 0.02;
+  result.moves = {10, {0.4, 0.25}, {1.3, 0.75}};
+  EXPECT_NE(
+      format_survey_text(result, small_summary())
+          .find(" (RMS) to agree with the images:\n"
+                "             by 0.4 of their standard deviations (median; 1.3 at most), turned by 0.25 "
+                "(0.75)\n"),
+      std::string::npos);
+}
+
+TEST(SurveyJson, has_moves_in_deviations_if_the_poses_state_some) {
+  SurveyResult result = small_survey();
+  EXPECT_TRUE(
+      nlohmann::json::parse(format_survey_report(result))["smoothed_poses"]["moved_sigmas"].is_null());
+  result.moves = {10, {0.4, 0}, {1.3, std::numeric_limits<double>::infinity()}};
+  const auto json = nlohmann::json::parse(format_survey_report(result))["smoothed_poses"];
+  EXPECT_EQ(json["moved_sigmas"]["median"], 0.4);
+  EXPECT_EQ(json["moved_sigmas"]["max"], 1.3);
+  EXPECT_EQ(json["turned_sigmas"]["median"], 0);
+  EXPECT_TRUE(json["turned_sigmas"]["max"].is_null());  // turned, though stated as exact
+}
+
 TEST(SurveyJson, has_a_report_that_is_the_same_in_every_run) {
   SurveyResult result = small_survey();
   const std::string report = format_survey_report(result);

@@ -57,6 +57,8 @@ void put(const HeldOutLandmark& landmark, ByteWriter& writer);
 void get(BinaryReader& reader, HeldOutLandmark& landmark);
 void put(const HeldOutFrame& frame, ByteWriter& writer);
 void get(BinaryReader& reader, HeldOutFrame& frame);
+void put(const MoveInSigmas& move, ByteWriter& writer);
+void get(BinaryReader& reader, MoveInSigmas& move);
 void put(const Track& track, ByteWriter& writer);
 void get(BinaryReader& reader, Track& track);
 void put(const SurveyLandmark& landmark, ByteWriter& writer);
@@ -99,6 +101,16 @@ void get(BinaryReader& reader, HeldOutFrame& frame) {
   frame.keyframe.value = reader.get<std::int32_t>();
   for (Vector6d* values : {&frame.to_map, &frame.to_given, &frame.formal, &frame.stated})
     get_matrix(reader, *values);
+}
+
+void put(const MoveInSigmas& move, ByteWriter& writer) {
+  writer.put(move.position);
+  writer.put(move.rotation);
+}
+
+void get(BinaryReader& reader, MoveInSigmas& move) {
+  move.position = reader.get<double>();
+  move.rotation = reader.get<double>();
 }
 
 void put(const Track& track, ByteWriter& writer) {
@@ -324,6 +336,7 @@ SurveyState get_state(BinaryReader& reader, const ObserveAgain& observe) {
   get(reader, state.tracks);
   get(reader, state.finished);
   state.first_open_pose.value = reader.get<std::int32_t>();
+  get(reader, state.moves);
   get(reader, state.held_out);
   get(reader, state.pending);
   state.variance = VarianceModel(get_sums(reader));
@@ -351,6 +364,7 @@ void write_checkpoint(const std::filesystem::path& folder, std::uint32_t identit
   put(state.tracks, writer);
   put(state.finished, writer);
   writer.put(state.first_open_pose.value);
+  put(state.moves, writer);
   put(state.held_out, writer);
   put(state.pending, writer);
   put(state.variance.sums(), writer);

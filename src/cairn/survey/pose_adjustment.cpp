@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "cairn/core/median.h"
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/optimize/bundle_adjustment.h"
 
@@ -96,6 +99,14 @@ class PoseBundle {
   BundleProblem problem_;
 };
 
+/// Returns the length of a move over the standard deviation in its direction.
+double in_sigmas(const Eigen::Vector3d& move, const Eigen::Matrix3d& covariance) {
+  const double squared = move.squaredNorm();
+  if (squared == 0) return 0;
+  const double variance = move.dot(covariance * move) / squared;
+  return variance > 0 ? std::sqrt(squared / variance) : std::numeric_limits<double>::infinity();
+}
+
 /// Adjusts, leaves out what does not fit, and adjusts again.
 void adjust_twice(BundleProblem& problem, const Executor& executor) {
   const BundleReport report = adjust_bundle(problem, {}, executor);
@@ -144,6 +155,26 @@ PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId 
   const Vector6d jitter = (near.variances() - noise.formal) / 2;
   noise.given = ((near.variances() - noise.motion) / 2).cwiseMax(kLeastJitter * jitter).cwiseMax(0.0);
   return noise;
+}
+
+MoveInSigmas move_in_sigmas(const GivenPose& given, const WorldFromCamera& adjusted) {
+  const PoseUncertainty& stated = given.uncertainty.value();
+  const Rigid3& before = given.world_from_camera;
+  return {in_sigmas(adjusted.translation - before.translation, stated.position),
+          in_sigmas(rotation_log(adjusted.rotation * before.rotation.conjugate()), stated.rotation)};
+}
+
+MovesInSigmas summarise_moves(std::span<const MoveInSigmas> moves) {
+  MovesInSigmas result;
+  result.frames = static_cast<std::int64_t>(moves.size());
+  if (moves.empty()) return result;
+  for (double MoveInSigmas::*part : {&MoveInSigmas::position, &MoveInSigmas::rotation}) {
+    std::vector<double> sizes;
+    for (const MoveInSigmas& move : moves) sizes.push_back(move.*part);
+    result.largest.*part = *std::max_element(sizes.begin(), sizes.end());
+    result.median.*part = median(std::move(sizes));
+  }
+  return result;
 }
 
 void adjust_poses(const Rig& rig, std::span<const Track* const> tracks, KeyframeId first, int reach,

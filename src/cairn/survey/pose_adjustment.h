@@ -7,6 +7,7 @@
 
 #include "cairn/core/executor.h"
 #include "cairn/survey/frames.h"
+#include "cairn/survey/survey.h"
 #include "cairn/survey/tracks.h"
 
 namespace cairn {
@@ -36,6 +37,14 @@ struct PoseNoise {
 /// the mean square. What they differ by in the mean, frame after frame, is neither: it is a fault of the
 /// calibration. Zero if fewer than two motions were measured.
 [[nodiscard]] PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId last);
+
+/// Computes by how many standard deviations, as `given` states them, `adjusted` differs from it: along the
+/// way between the centres, and about the axis of the turn; infinity along or about an axis that is stated as
+/// exact. `given` must state its uncertainty.
+[[nodiscard]] MoveInSigmas move_in_sigmas(const GivenPose& given, const WorldFromCamera& adjusted);
+
+/// Summarises these; for an even number the larger of the two in the middle is the median.
+[[nodiscard]] MovesInSigmas summarise_moves(std::span<const MoveInSigmas> moves);
 
 /// Adjusts world_from_camera of frame `first` and all after it to their given poses and to the images, as
 /// `tracks` show them: a bundle adjustment, robust, in which up to `reach` frames before `first` keep their

@@ -202,6 +202,36 @@ TEST(MeasureNoise, tells_jitter_of_poses_from_drift_of_motions) {
   EXPECT_LT(of_motions.given.tail<3>().sum(), of_poses.given.tail<3>().sum());
 }
 
+TEST(MoveInSigmas, counts_in_the_direction_of_the_move) {
+  GivenPose given;
+  given.world_from_camera = testkit::on_bend(3);
+  given.uncertainty.emplace();
+  given.uncertainty->position = Eigen::Vector3d(0.01, 0.04, 0).asDiagonal();
+  given.uncertainty->rotation = Eigen::Vector3d(1e-6, 4e-6, 9e-6).asDiagonal();
+  const auto moved = [&](const Eigen::Vector3d& move, const Eigen::Vector3d& turn) {
+    const Rigid3& pose = given.world_from_camera;
+    return move_in_sigmas(
+        given, WorldFromCamera(Rigid3{rotation_exp(turn) * pose.rotation, pose.translation + move}));
+  };
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  EXPECT_NEAR(moved({0.3, 0, 0}, {0, 4e-3, 0}).position, 3, 1e-9);
+  EXPECT_NEAR(moved({0.3, 0, 0}, {0, 4e-3, 0}).rotation, 2, 1e-6);
+  EXPECT_NEAR(moved({0.3, 0.3, 0}, none).position, 0.3 * std::sqrt(2) / std::sqrt(0.025), 1e-9);
+  EXPECT_EQ(moved(none, none).position, 0);
+  EXPECT_TRUE(std::isinf(moved({0, 0, 1e-3}, none).position));  // stated as exact
+}
+
+TEST(MoveInSigmas, has_median_and_largest) {
+  EXPECT_EQ(summarise_moves({}).frames, 0);
+  const MoveInSigmas moves[] = {{3, 0.1}, {1, 0.5}, {2, 0.2}};
+  const MovesInSigmas summary = summarise_moves(moves);
+  EXPECT_EQ(summary.frames, 3);
+  EXPECT_EQ(summary.median.position, 2);
+  EXPECT_EQ(summary.largest.position, 3);
+  EXPECT_EQ(summary.median.rotation, 0.2);
+  EXPECT_EQ(summary.largest.rotation, 0.5);
+}
+
 /// Tracks of points in one frame, and the next one, whose odometry is 5 cm and 3 mrad wrong.
 class MeasureMotion : public testing::Test {
  protected:

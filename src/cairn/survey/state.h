@@ -27,6 +27,7 @@ struct SurveyState {
   VarianceModel variance;
   LandmarkNoiseModel noise;
   SurveyCounts counts;
+  std::vector<MoveInSigmas> moves;     ///< of the settled frames whose given poses state deviations
   std::vector<HeldOutFrame> held_out;  ///< frames that were written and located without their observations
 };
 

@@ -14,6 +14,7 @@
 #include "cairn/survey/diagnosis.h"
 #include "cairn/survey/disparities_by_poses.h"
 #include "cairn/survey/identity.h"
+#include "cairn/survey/pose_adjustment.h"
 #include "cairn/survey/surveyor.h"
 
 namespace cairn {
@@ -220,6 +221,7 @@ class SurveyPipeline {
     const SurveyState& state = surveyor_->state();
     const SurveyTimes& times = surveyor_->times();
     result_.stated = stated_deviations(input_.poses);
+    result_.moves = summarise_moves(state.moves);
     result_.counts = state.counts;
     result_.times.matching = times.matching;
     result_.times.poses = times.poses;

@@ -66,6 +66,18 @@ struct StatedDeviations {
   double position_m = 0, rotation_deg = 0;
 };
 
+/// Holds by how many of its stated standard deviations a given pose was moved and turned, each in the
+/// direction of the move; 0 where it was not.
+struct MoveInSigmas {
+  double position = 0, rotation = 0;
+};
+
+/// Holds the distribution over the frames of MoveInSigmas; all 0 without frames.
+struct MovesInSigmas {
+  std::int64_t frames = 0;  ///< whose poses state standard deviations
+  MoveInSigmas median, largest;
+};
+
 /// Holds the result of mapping with known poses.
 struct SurveyResult {
   SurveyCounts counts;
@@ -78,6 +90,7 @@ struct SurveyResult {
   /// the images, and from the poses' stated deviations.
   double image_std_rms_m = 0, pose_std_rms_m = 0;
   StatedDeviations stated;             ///< of the given poses
+  MovesInSigmas moves;                 ///< by which smoothing changed poses, against what they state
   std::vector<HeldOutFrame> held_out;  ///< frames that were located without their observations
   RowErrors row_errors;                ///< of the right images; all zero if they were not measured
   bool rows_aligned = false;           ///< whether the right images were loaded with their rows corrected

@@ -143,6 +143,7 @@ void Surveyor::count_moved(KeyframeId id) {
   const double angle = rotation_angle(moved.rotation);
   state_.counts.moved_squared_m += moved.translation.squaredNorm();
   state_.counts.turned_squared_rad += angle * angle;
+  if (frame.given.uncertainty) state_.moves.push_back(move_in_sigmas(frame.given, frame.world_from_camera));
 }
 
 /// Makes landmarks of the finished tracks whose frames have their final poses.
