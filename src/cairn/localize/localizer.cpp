@@ -190,21 +190,26 @@ Localization Localizer::refine(const ObservedFrame& observed, const std::vector<
   found.inliers = pose.inliers;
   found.variance_factor = pose.variance_factor;
   found.rms_px = pose.rms_px;
-  found.precision = assess_precision(camera_.rig, matched.correspondences(), pose);
-  add_common_error(found);
+  const auto common = common_error_near(pose.camera_from_world);
+  // Of few inliers the factor is known badly, and frames with fewer were not held out.
+  const bool is_measured = common && pose.inliers.size() >= kFewestHeldOutInliers;
+  found.precision = assess_precision(camera_.rig, matched.correspondences(), pose,
+                                     is_measured ? NoiseScale::as_residuals : NoiseScale::at_least_stated);
+  if (common) cairn::add_common_error(common->error, common->camera_from_keyframe, found.precision);
   found.independent = count_independent(found, matches);
   found.cells = count_cells(found, camera_);
   judge(found);
   return found;
 }
 
-void Localizer::add_common_error(Localization& found) const {
-  const auto nearest = keyframes_near(map_, found.camera_from_world.inverse(), 1);
-  if (nearest.empty()) return;
+std::optional<Localizer::PlacedError> Localizer::common_error_near(
+    const CameraFromWorld& camera_from_world) const {
+  const auto nearest = keyframes_near(map_, camera_from_world.inverse(), 1);
+  if (nearest.empty()) return std::nullopt;
   const auto error = common_errors_.near(nearest.front());
-  if (!error) return;
+  if (!error) return std::nullopt;
   const Eigen::Quaterniond world_from_keyframe = map_.poses()[nearest.front().index()].rotation;
-  cairn::add_common_error(*error, found.camera_from_world.rotation * world_from_keyframe, found.precision);
+  return PlacedError{*error, camera_from_world.rotation * world_from_keyframe};
 }
 
 void Localizer::judge(Localization& found) const {

@@ -70,7 +70,14 @@ class Localizer {
   [[nodiscard]] Localization localize_anywhere(const ObservedFrame& observed) const;
   [[nodiscard]] Localization refine(const ObservedFrame& observed, const std::vector<LandmarkMatch>& matches,
                                     Keyframes keyframes) const;
-  void add_common_error(Localization& found) const;
+  /// Holds an error that landmarks have in common, in the axes of a keyframe, and how a camera is turned to
+  /// it.
+  struct PlacedError {
+    CommonError error;
+    Eigen::Quaterniond camera_from_keyframe;
+  };
+  /// Returns that of the place, or nullopt if the map does not know it.
+  [[nodiscard]] std::optional<PlacedError> common_error_near(const CameraFromWorld& camera_from_world) const;
   void judge(Localization& found) const;
   [[nodiscard]] Keyframes load(const std::vector<KeyframeId>& ids) const;
 

@@ -47,11 +47,12 @@ std::vector<LandmarkMatch> with_points(const StoredMap& map, const ObservedFrame
   std::vector<LandmarkMatch> matches;
   for (const Candidate& candidate : candidates) {
     const StoredLandmark landmark = map.landmark(candidate.landmark);
-    if (!landmark.covariance.allFinite()) continue;
+    const Eigen::Matrix3d covariance = map.noise_covariance(candidate.landmark);
+    if (!covariance.allFinite()) continue;
     const Eigen::Vector3d ray = landmark.point_in_world - candidate.keyframe->world_from_camera.translation;
     const auto feature = static_cast<std::size_t>(candidate.feature);
     matches.push_back({candidate.feature, observed.observations[feature], candidate.landmark,
-                       landmark.point_in_world, landmark.covariance, ray.norm()});
+                       landmark.point_in_world, covariance, ray.norm()});
   }
   return matches;
 }

@@ -17,7 +17,8 @@ struct LandmarkMatch {
   Observation seen;  ///< observation of the feature
   LandmarkId landmark;
   Eigen::Vector3d point_in_world = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< covariance of the point, square metres; finite
+  /// Covariance of the point that is its own (StoredMap::noise_covariance), square metres; finite.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double distance = 0;  ///< of the point from the camera of the keyframe that was matched, metres
 };
 

@@ -49,7 +49,8 @@ Vector6d unnoticed_error(const Rig& rig, const Correspondences& correspondences,
 
 }  // namespace
 
-Precision assess_precision(const Rig& rig, const Correspondences& given, const PoseEstimate& pose) {
+Precision assess_precision(const Rig& rig, const Correspondences& given, const PoseEstimate& pose,
+                           NoiseScale noise) {
   require(pose.found(), "the precision of a pose that was found");
   require(given.covariances.size() == given.size(), "each point has a covariance");
   std::vector<Observation> used(given.observations.begin(), given.observations.end());
@@ -58,7 +59,7 @@ Precision assess_precision(const Rig& rig, const Correspondences& given, const P
   const Correspondences correspondences{given.points_in_world, used, given.covariances};
   Precision precision;
   const double scale = std::max(1.0, pose.variance_factor);
-  precision.covariance = scale * pose.covariance;
+  precision.covariance = (noise == NoiseScale::as_residuals ? pose.variance_factor : scale) * pose.covariance;
   precision.dilution = unit_cofactor(rig, correspondences, pose).diagonal().cwiseMax(0.0).cwiseSqrt();
   precision.gdop = precision.dilution.tail<3>().norm();
   const Vector6d sigma = precision.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();

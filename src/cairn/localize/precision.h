@@ -32,10 +32,17 @@ struct Precision {
   Vector6d protection = Vector6d::Zero();
 };
 
+/// Says which factor of the noise counts beside the stated standard deviations. at_least_stated: max(1,
+/// variance_factor). as_residuals: variance_factor, for which the errors that observations have in common,
+/// and residuals do not show, must be known otherwise (CommonErrors).
+enum class NoiseScale { at_least_stated, as_residuals };
+
 /// Computes the precision of `pose`, which must be found from these correspondences, each with a covariance
-/// of its point. Scales the covariance by noise by max(1, variance_factor).
+/// of its point. Scales the covariance by noise by the factor that `scale` names; but for errors that go
+/// unnoticed, which the inlier test judges by the stated standard deviations, never by less than 1.
 [[nodiscard]] Precision assess_precision(const Rig& rig, const Correspondences& correspondences,
-                                         const PoseEstimate& pose);
+                                         const PoseEstimate& pose,
+                                         NoiseScale scale = NoiseScale::at_least_stated);
 
 /// Adds errors that landmarks have in common, in the axes of a keyframe, to a precision by noise alone; the
 /// camera is turned by `camera_from_keyframe`.

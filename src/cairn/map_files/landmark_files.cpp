@@ -57,6 +57,18 @@ void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWrit
   for (const double entry : landmark.covariance.reshaped()) writer.put(entry);
 }
 
+BinaryWriter begin_noise_file(std::uint32_t landmarks) {
+  BinaryWriter writer(kNoiseKind);
+  writer.put(landmarks);
+  return writer;
+}
+
+void put_noise(const Eigen::Matrix3d& covariance, ByteWriter& writer) {
+  require(is_covariance(covariance), "the covariance of a landmark by noise is symmetric");
+  for (Eigen::Index row = 0; row < 3; ++row)
+    for (Eigen::Index column = row; column < 3; ++column) writer.put(covariance(row, column));
+}
+
 void put_observation(const ObservationRef& observation, const Keypoint& keypoint,
                      const std::uint8_t* descriptor, const DescriptorKind& kind, ByteWriter& writer) {
   writer.put(observation.keyframe.value);

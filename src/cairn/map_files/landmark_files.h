@@ -40,6 +40,9 @@ constexpr std::size_t kLandmarkBytes = 112;
 /// Descriptor.bin.
 constexpr std::size_t kPointBegin = 24, kDescriptorBegin = 32, kObservationHead = 16;
 constexpr BinaryKind kPointKind{"CAIRNPNT", kMapVersion};
+/// Offset of the records of Noise.bin and the size of one, bytes.
+constexpr std::size_t kNoiseBegin = 16, kNoiseBytes = 48;
+constexpr BinaryKind kNoiseKind{"CAIRNNSE", kMapVersion};
 constexpr BinaryKind kDescriptorKind{"CAIRNDSC", kMapVersion};
 
 /// Returns the beginning of Point.bin; the records follow, in order (put_landmark).
@@ -49,6 +52,11 @@ constexpr BinaryKind kDescriptorKind{"CAIRNDSC", kMapVersion};
 /// Appends a record of Point.bin. Throws PreconditionError unless the point is finite, and the covariance
 /// symmetric, without NaN and without negative variances.
 void put_landmark(std::uint32_t number, const StoredLandmark& landmark, ByteWriter& writer);
+/// Returns the beginning of Noise.bin; the records follow, in order (put_noise).
+[[nodiscard]] BinaryWriter begin_noise_file(std::uint32_t landmarks);
+/// Appends a record of Noise.bin. Throws PreconditionError unless the covariance is symmetric, without NaN
+/// and without negative variances.
+void put_noise(const Eigen::Matrix3d& covariance, ByteWriter& writer);
 /// Appends a row of Descriptor.bin; `descriptor` has as many bytes as `kind` says.
 void put_observation(const ObservationRef& observation, const Keypoint& keypoint,
                      const std::uint8_t* descriptor, const DescriptorKind& kind, ByteWriter& writer);

@@ -30,6 +30,7 @@ constexpr const char* kPointFile = "Point.bin";
 constexpr const char* kDescriptorFile = "Descriptor.bin";
 constexpr const char* kPlaceFile = "Place.bin";
 constexpr const char* kHeldOutFile = "held_out.txt";  ///< not in every map
+constexpr const char* kNoiseFile = "Noise.bin";       ///< not in every map
 
 /// Returns "hamming" or "l2".
 [[nodiscard]] std::string_view to_string(Norm norm);

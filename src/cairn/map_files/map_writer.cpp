@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kAppendFolder = "spool";
 constexpr std::array<const char*, MapWriterState::kAppendFiles> kAppendNames{"points", "sightings", "table",
-                                                                             "poses", "keyframes"};
+                                                                             "poses",  "keyframes", "noise"};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
@@ -63,6 +63,7 @@ void MapWriterState::put(ByteWriter& writer) const {
   writer.put(landmarks);
   writer.put(features);
   writer.put(observations);
+  writer.put(with_noise);
 }
 
 MapWriterState MapWriterState::get(BinaryReader& reader) {
@@ -75,6 +76,7 @@ MapWriterState MapWriterState::get(BinaryReader& reader) {
   state.landmarks = reader.get<std::uint32_t>();
   state.features = reader.get<std::uint64_t>();
   state.observations = reader.get<std::uint64_t>();
+  state.with_noise = reader.get<std::uint32_t>();
   return state;
 }
 
@@ -90,7 +92,8 @@ MapWriter::MapWriter(const fs::path& folder, const MapHeader& header, const MapW
       frames_(state.frames),
       landmarks_(state.landmarks),
       features_(state.features),
-      observations_(state.observations) {
+      observations_(state.observations),
+      with_noise_(state.with_noise) {
   require(is_known_descriptor(header.descriptor.name), "a map's descriptor is one of descriptor_names()");
   open_append_files(&state);
   remove_frames_from(state.frames);
@@ -150,6 +153,12 @@ void MapWriter::add_landmark(const FinishedLandmark& landmark) {
   append_file(Part::table)
       .append(
           format_uvlist_row(landmarks_, landmark.point_in_world, landmark.covariance, landmark.indicators));
+  if (landmark.noise_covariance) {
+    ByteWriter noise;
+    put_noise(*landmark.noise_covariance, noise);
+    append_file(Part::noise).append(noise.bytes());
+    ++with_noise_;
+  }
   observations_ += count;
   ++landmarks_;
 }
@@ -158,7 +167,7 @@ MapWriterState MapWriter::save() {
   for (const fs::path& frame : unsaved_) sync_to_disk(frame);
   unsaved_.clear();
   for (const char* name : {"frames", kAppendFolder}) sync_to_disk(folder_ / name);
-  MapWriterState state{{}, frames_, landmarks_, features_, observations_};
+  MapWriterState state{{}, frames_, landmarks_, features_, observations_, with_noise_};
   for (std::size_t i = 0; i < append_files_.size(); ++i) state.append_files[i] = append_files_[i]->sync();
   return state;
 }
@@ -198,10 +207,13 @@ void MapWriter::write_info(const MapInfo& info) {
 
 void MapWriter::finish(std::span<const HeldOutFrame> held_out) {
   require(frames_ > 0, "a map to write has keyframes");
+  require(with_noise_ == 0 || with_noise_ == landmarks_,
+          "all landmarks have a covariance of their own or none");
   MapInfo info{header_, {}, landmarks_, features_, observations_, {}};
   write_binary(kPointFile, begin_point_file(landmarks_, observations_), Part::points, info);
   write_binary(kDescriptorFile, begin_descriptor_file(header_.descriptor, observations_), Part::observations,
                info);
+  if (with_noise_ > 0) write_binary(kNoiseFile, begin_noise_file(landmarks_), Part::noise, info);
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);

@@ -5,6 +5,7 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,15 +27,19 @@ struct FinishedLandmark {
   std::vector<Keypoint> keypoints;           ///< of each observation; only size and sigma are stored
   Descriptors descriptors;                   ///< of each observation
   LandmarkIndicators indicators;             ///< indicators for its row in uvlist.txt
+  /// The part of it that is the landmark's own, by the noise of the images; the rest it has in common with
+  /// its neighbours. nullopt: all is its own. Of all landmarks of a map or of none.
+  std::optional<Eigen::Matrix3d> noise_covariance = std::nullopt;
 };
 
 /// Holds how far a MapWriter has come.
 struct MapWriterState {
-  static constexpr std::size_t kAppendFiles = 5;
+  static constexpr std::size_t kAppendFiles = 6;
   std::array<AppendFileState, kAppendFiles> append_files;
   std::int32_t frames = 0;
   std::uint32_t landmarks = 0;
   std::uint64_t features = 0, observations = 0;
+  std::uint32_t with_noise = 0;  ///< landmarks with a covariance of their own
 
   /// Appends the state to `writer`.
   void put(ByteWriter& writer) const;
@@ -79,7 +84,7 @@ class MapWriter {
   static void discard_append_files(const std::filesystem::path& folder);
 
  private:
-  enum class Part { points, observations, table, poses, keyframes };
+  enum class Part { points, observations, table, poses, keyframes, noise };
   [[nodiscard]] AppendFile& append_file(Part part) { return *append_files_[static_cast<std::size_t>(part)]; }
   void open_append_files(const MapWriterState* state);
   void remove_frames_from(std::int32_t first) const;
@@ -94,6 +99,7 @@ class MapWriter {
   std::int32_t frames_ = 0;
   std::uint32_t landmarks_ = 0;
   std::uint64_t features_ = 0, observations_ = 0;
+  std::uint32_t with_noise_ = 0;  // landmarks
 };
 
 }  // namespace cairn

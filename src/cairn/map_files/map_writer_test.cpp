@@ -10,6 +10,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
 #include "cairn/map_files/map_file.h"
+#include "cairn/map_files/stored_map.h"
 #include "cairn/testing/core/temporary_folder.h"
 #include "cairn/testing/map_files/scene_map.h"
 
@@ -179,6 +180,62 @@ TEST(MapWriter, what_is_true_of_the_whole_map_comes_back) {
   write_map(folder.path() / "again", map, read_covariances(folder.path() / "map"));
   fs::remove(folder.path() / "again/.cairn");
   EXPECT_EQ(contents_of(folder.path() / "again"), contents_of(folder.path() / "map"));
+}
+
+/// Writes the whole map, whose landmarks from number `first` on have a covariance by noise.
+void write_with_noise(const fs::path& folder, std::int32_t first) {
+  make_folder(folder);
+  MapWriter writer(folder, header());
+  for (std::int32_t i = 0; i < kFrames; ++i) {
+    const std::vector<LandmarkId> shown{{i}, {i + 1 < kFrames ? i + 1 : -1}};
+    writer.add_frame(frame(i), shown, pose(i), i / 4);
+    FinishedLandmark noisy = landmark(i);
+    if (i >= first) noisy.noise_covariance = (1.0 + i) * Eigen::Matrix3d{{3, 1, 0}, {1, 4, -1}, {0, -1, 5}};
+    writer.add_landmark(noisy);
+    if (i == 1) (void)writer.save();
+  }
+  writer.finish();
+  MapWriter::discard_append_files(folder);
+}
+
+TEST(MapWriter, covariances_by_noise_come_back) {
+  const TemporaryFolder folder;
+  write_with_noise(folder.path() / "map", 0);
+  const StoredMap map(folder.path() / "map");
+  for (std::int32_t i = 0; i < kFrames; ++i) {
+    const Eigen::Matrix3d expected = (1.0 + i) * Eigen::Matrix3d{{3, 1, 0}, {1, 4, -1}, {0, -1, 5}};
+    EXPECT_EQ(map.noise_covariance({i}), expected);
+    EXPECT_EQ(map.landmark({i}).covariance, landmark(i).covariance);
+  }
+  EXPECT_NO_THROW(map.check());
+  EXPECT_THROW((void)map.noise_covariance({kFrames}), PreconditionError);
+}
+
+TEST(MapWriter, without_covariances_by_noise_all_is_noise) {
+  const TemporaryFolder folder;
+  write_with_noise(folder.path() / "map", kFrames);
+  EXPECT_FALSE(fs::exists(folder.path() / "map" / kNoiseFile));
+  EXPECT_EQ(StoredMap(folder.path() / "map").noise_covariance({2}), landmark(2).covariance);
+}
+
+TEST(MapWriter, all_landmarks_have_a_covariance_by_noise_or_none) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(write_with_noise(folder.path() / "map", 1), PreconditionError);
+}
+
+TEST(MapWriter, a_damaged_or_foreign_file_of_noise_is_found) {
+  const TemporaryFolder folder;
+  write_with_noise(folder.path() / "map", 0);
+  const fs::path file = folder.path() / "map" / kNoiseFile;
+  const std::string bytes = read_file(file);
+  for (std::size_t i = 0; i < bytes.size(); i += 7) {
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ 4);
+    write_file(file, damaged);
+    EXPECT_THROW(StoredMap(folder.path() / "map").check(), InputError) << i;
+  }
+  write_file(file, bytes.substr(0, bytes.size() / 2));
+  EXPECT_THROW(StoredMap(folder.path() / "map").check(), InputError);
 }
 
 TEST(MapWriter, its_state_goes_through_a_file) {

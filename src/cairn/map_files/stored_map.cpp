@@ -80,6 +80,11 @@ StoredMap::StoredMap(const std::filesystem::path& folder)
   if (points_.size() != kPointBegin + kLandmarkBytes * std::uint64_t{info_.landmarks})
     points_.fail(fmt::format("{} landmarks, as map.json says", info_.landmarks),
                  fmt::format("{} bytes", points_.size()));
+  if (!info_.checksum_of(kNoiseFile)) return;
+  noise_.emplace(folder_ / kNoiseFile, kNoiseKind, info_.checksum_of(kNoiseFile));
+  if (noise_->size() != kNoiseBegin + kNoiseBytes * std::uint64_t{info_.landmarks})
+    noise_->fail(fmt::format("{} landmarks, as map.json says", info_.landmarks),
+                 fmt::format("{} bytes", noise_->size()));
 }
 
 StoredMap::~StoredMap() = default;
@@ -104,6 +109,20 @@ StoredLandmark StoredMap::landmark(LandmarkId id) const {
   return landmark;
 }
 
+Eigen::Matrix3d StoredMap::noise_covariance(LandmarkId id) const {
+  if (!noise_) return landmark(id).covariance;
+  require(id.valid() && static_cast<std::uint32_t>(id.value) < info_.landmarks, "the landmark is in the map");
+  std::uint64_t next = kNoiseBegin + kNoiseBytes * static_cast<std::uint64_t>(id.value);
+  Eigen::Matrix3d covariance;
+  for (Eigen::Index row = 0; row < 3; ++row) {
+    for (Eigen::Index column = row; column < 3; ++column, next += sizeof(double))
+      covariance(row, column) = covariance(column, row) = noise_->at<double>(next);
+  }
+  if (!is_covariance(covariance))
+    noise_->fail(fmt::format("a covariance of landmark {}", id.value), "another matrix");
+  return covariance;
+}
+
 std::shared_ptr<const StoredKeyframe> StoredMap::keyframe(KeyframeId id) const {
   require(id.valid() && id.index() < poses_.size(), "the keyframe is in the map");
   if (auto found = cache_->find(id)) return found;
@@ -114,7 +133,7 @@ std::shared_ptr<const StoredKeyframe> StoredMap::keyframe(KeyframeId id) const {
 }
 
 std::uint64_t StoredMap::touched_bytes() const {
-  return points_.touched_bytes() + places_.touched_bytes();
+  return points_.touched_bytes() + places_.touched_bytes() + (noise_ ? noise_->touched_bytes() : 0);
 }
 
 void StoredMap::check() const {
@@ -122,6 +141,7 @@ void StoredMap::check() const {
   check_map_text(folder_, info_, kUvlistFile);
   if (info_.checksum_of(kHeldOutFile)) check_map_text(folder_, info_, kHeldOutFile);
   check_sealed_file(folder_ / kPointFile, kPointKind, info_.checksum_of(kPointFile));
+  if (noise_) check_sealed_file(folder_ / kNoiseFile, kNoiseKind, info_.checksum_of(kNoiseFile));
   check_sealed_file(folder_ / kDescriptorFile, kDescriptorKind, info_.checksum_of(kDescriptorFile));
   check_sealed_file(folder_ / kPlaceFile, kPlaceKind, info_.checksum_of(kPlaceFile));
   for (std::size_t i = 0; i < poses_.size(); ++i)

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cairn/geometry/framed.h"
@@ -43,6 +44,10 @@ class StoredMap {
   [[nodiscard]] const PlaceFile& places() const { return places_; }
   /// Returns a landmark. Throws PreconditionError if it is not in the map.
   [[nodiscard]] StoredLandmark landmark(LandmarkId id) const;
+  /// Returns the part of a landmark's covariance that is its own: what it does not have in common with its
+  /// neighbours. Square metres; all of it if the map does not tell them apart. Throws PreconditionError if
+  /// the landmark is not in the map.
+  [[nodiscard]] Eigen::Matrix3d noise_covariance(LandmarkId id) const;
   /// Returns a keyframe, which is read when it is first asked for; those used last are kept in memory. Throws
   /// PreconditionError if it is not in the map.
   [[nodiscard]] std::shared_ptr<const StoredKeyframe> keyframe(KeyframeId id) const;
@@ -62,6 +67,7 @@ class StoredMap {
   std::vector<WorldFromCamera> poses_;
   std::vector<HeldOutFrame> held_out_;
   MappedFile points_;
+  std::optional<MappedFile> noise_;
   PlaceFile places_;
   std::int32_t main_component_ = 0;
   std::unique_ptr<Cache> cache_;

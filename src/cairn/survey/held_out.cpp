@@ -61,13 +61,11 @@ void HoldOut::add(const SurveyLandmark& landmark) {
     if (fit_.status != LandmarkFitStatus::ok) continue;
     const auto information = information_of(rig_, cameras_, kept(others, fit_), fit_.point_in_world);
     const Eigen::Matrix3d own = prior_.noise.covariance_of(information);
-    frames_[observation.keyframe].held_out.push_back(
-        {observation.feature, fit_.point_in_world, own + landmark.pose_covariance});
+    frames_[observation.keyframe].held_out.push_back({observation.feature, fit_.point_in_world, own});
   }
 }
 
 std::optional<HeldOutFrame> locate_held_out(const Rig& rig, const SurveyFrame& frame, double sigma_px) {
-  constexpr std::size_t kFewest = 50;  // as TrustOptions::min_inliers
   std::vector<Eigen::Vector3d> points;
   std::vector<Observation> seen;
   std::vector<Eigen::Matrix3d> covariances;
@@ -77,15 +75,15 @@ std::optional<HeldOutFrame> locate_held_out(const Rig& rig, const SurveyFrame& f
     seen.push_back(frame.observed.observations[static_cast<std::size_t>(landmark.feature)]);
     seen.back().sigma_px /= sigma_px;
   }
-  if (points.size() < kFewest) return std::nullopt;
+  if (points.size() < kFewestHeldOutInliers) return std::nullopt;
   const PoseEstimate pose =
       estimate_pose(rig, {points, seen, covariances}, frame.camera_from_world, {.keep_pixels = false});
-  if (!pose.found() || pose.inliers.size() < kFewest) return std::nullopt;
+  if (!pose.found() || pose.inliers.size() < kFewestHeldOutInliers) return std::nullopt;
   HeldOutFrame result;
   result.keyframe = frame.id;
   result.to_map = left_perturbation(pose.camera_from_world, frame.camera_from_world);
   result.to_given = left_perturbation(pose.camera_from_world, frame.given.world_from_camera.inverse());
-  result.formal = std::max(1.0, pose.variance_factor) * pose.covariance.diagonal().cwiseMax(0.0);
+  result.formal = pose.variance_factor * pose.covariance.diagonal().cwiseMax(0.0);
   result.stated = stated_variances(frame.given);
   return result;
 }

@@ -82,6 +82,18 @@ TEST_F(HeldOut, says_by_how_much_the_frame_is_missed) {
   }
 }
 
+/// The errors of poses move all landmarks of a place alike, which no number of them averages out: they are no
+/// part of what single landmarks err by.
+TEST_F(HeldOut, weighs_landmarks_without_what_they_have_in_common) {
+  make(300);
+  hold_out();
+  const HeldOutFrame alone = locate_held_out(kDriveRig, frames_[kHeldOut], 0.5).value();
+  frames_[kHeldOut].held_out.clear();
+  for (SurveyLandmark& landmark : landmarks_) landmark.pose_covariance = 0.04 * Eigen::Matrix3d::Identity();
+  hold_out();
+  EXPECT_EQ(locate_held_out(kDriveRig, frames_[kHeldOut], 0.5)->formal, alone.formal);
+}
+
 TEST_F(HeldOut, is_nothing_of_a_few_landmarks) {
   make(49);
   hold_out();

@@ -12,10 +12,14 @@
 namespace cairn {
 namespace {
 
-/// Returns what is stored of a landmark.
-FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark) {
-  FinishedLandmark result{landmark.point_in_world, landmark.covariance(), landmark.observations, {}, {},
-                          landmark.indicators};
+/// Returns what is stored of a landmark; `stated` says whether given poses state deviations.
+FinishedLandmark finished(const FrameBuffer& frames, const SurveyLandmark& landmark, bool stated) {
+  FinishedLandmark result;
+  result.point_in_world = landmark.point_in_world;
+  result.covariance = landmark.covariance();
+  if (stated) result.noise_covariance = landmark.image_covariance;
+  result.observations = landmark.observations;
+  result.indicators = landmark.indicators;
   std::vector<Appearance> appearances;
   for (const ObservationRef& observation : landmark.observations) {
     appearances.push_back(appearance_of(frames, observation));
@@ -191,6 +195,8 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
   std::vector<SurveyLandmark> later;
   const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
   HoldOut hold_out(rig_, options_, prior, state_.frames);
+  const bool stated = options_.covariance.pose_errors && !state_.frames.empty() &&
+                      state_.frames.front().given.uncertainty.has_value();
   for (SurveyLandmark& landmark : state_.pending) {
     if (landmark.observations.back().keyframe >= seen_before) {
       later.push_back(std::move(landmark));
@@ -201,7 +207,7 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
           state_.next_landmark;
     complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
     hold_out.add(landmark);
-    writer_.add_landmark(finished(state_.frames, landmark));
+    writer_.add_landmark(finished(state_.frames, landmark, stated));
     ++state_.next_landmark.value;
     ++state_.counts.landmarks;
     state_.counts.observations += static_cast<std::int64_t>(landmark.observations.size());
