@@ -11,7 +11,7 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kKind{"CAIRNSVY", 4};
+constexpr BinaryKind kKind{"CAIRNSVY", 5};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
