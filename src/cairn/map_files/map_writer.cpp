@@ -207,13 +207,12 @@ void MapWriter::write_info(const MapInfo& info) {
 
 void MapWriter::finish(std::span<const HeldOutFrame> held_out) {
   require(frames_ > 0, "a map to write has keyframes");
-  require(with_noise_ == 0 || with_noise_ == landmarks_,
-          "all landmarks have a covariance of their own or none");
   MapInfo info{header_, {}, landmarks_, features_, observations_, {}};
   write_binary(kPointFile, begin_point_file(landmarks_, observations_), Part::points, info);
   write_binary(kDescriptorFile, begin_descriptor_file(header_.descriptor, observations_), Part::observations,
                info);
-  if (with_noise_ > 0) write_binary(kNoiseFile, begin_noise_file(landmarks_), Part::noise, info);
+  if (with_noise_ > 0 && with_noise_ == landmarks_)
+    write_binary(kNoiseFile, begin_noise_file(landmarks_), Part::noise, info);
   write_text(kPosesFile, "# t tx ty tz qx qy qz qw  (seconds, metres; world_from_camera)\n", Part::poses,
              info);
   write_text(kUvlistFile, uvlist_header(), Part::table, info);

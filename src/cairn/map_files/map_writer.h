@@ -28,7 +28,8 @@ struct FinishedLandmark {
   Descriptors descriptors;                   ///< of each observation
   LandmarkIndicators indicators;             ///< indicators for its row in uvlist.txt
   /// The part of it that is the landmark's own, by the noise of the images; the rest it has in common with
-  /// its neighbours. nullopt: all is its own. Of all landmarks of a map or of none.
+  /// its neighbours. nullopt: all is its own. The map keeps these parts if all
+  /// landmarks have one.
   std::optional<Eigen::Matrix3d> noise_covariance = std::nullopt;
 };
 
