@@ -16,6 +16,8 @@ usage: ./do COMMAND [ARGUMENTS]
   gcc                build the program with g++, whose warnings are errors: build/gcc/cairn
   bench [ARGS]       time cairn beside its peers and print a table; ARGS go to Google Benchmark,
                      e.g. ./do bench --benchmark_filter=ORB
+  figures [ARGS]     measure what README.md and docs/ claim, and compare; --update writes it there,
+                     names say which, e.g. ./do figures slam --update; --check-text runs nothing
   tidy [FILES]       clang-tidy over our sources, or over these
   format [FILES]     clang-format, in place; --check only says what is wrong
   clean              remove build/ and demo/
@@ -49,6 +51,7 @@ packages_test=(
   octomap-tools    # reads our octrees in tests/quality/recordings.py
 )
 packages_bench=(libbenchmark-dev libopencv-calib3d-dev)
+packages_figures=(python3-pil colmap)  # photos of other sizes; the peer of cairn map
 packages_gcc=(g++)
 packages_sanitizers=(
   libclang-rt-16-dev  # what sanitized programs are linked with
@@ -160,6 +163,19 @@ bench() {
   build/release/cairn_bench "$@"
 }
 
+figures() {
+  local script=benchmarks/figures/run.py data=${CAIRN_DATA_DIR:-}
+  case ${1:-} in
+    --check-text | --mend | --list | --help) python3 "$script" "$@"; return ;;
+  esac
+  need "${packages_build[@]}" "${packages_bench[@]}" "${packages_figures[@]}"
+  configure release
+  grep -qx CAIRN_BENCHMARKS:BOOL=ON build/release/CMakeCache.txt ||
+    cmake -DCAIRN_BENCHMARKS=ON build/release >build/configure-release.log
+  ninja --quiet -C build/release cairn cairn_bench cairn_survey_tests
+  python3 "$script" --program build/release/cairn ${data:+--data "$data"} "$@"
+}
+
 tidy() {
   need "${packages_build[@]}" "${packages_bench[@]}" "${packages_tidy[@]}"
   configure tidy
@@ -189,6 +205,7 @@ main() {
     gcc) build_with_gcc ;;
     demo) demo ;;
     bench) bench "$@" ;;
+    figures) figures "$@" ;;
     tidy) tidy "$@" ;;
     format) format "$@" ;;
     clean) rm -rf build demo ;;

@@ -21,19 +21,19 @@ from pathlib import Path
 import triangulate
 from model import figures_of
 
-COLUMNS = {"cairn": "cairn map", "given": "COLMAP, given poses", "smoothed": "COLMAP, cairn's poses"}
+COLUMNS = {"cairn": "cairn map", "exact": "cairn map, --exact-poses", "given": "COLMAP, given poses", "smoothed": "COLMAP, cairn's poses"}
 ROWS = {"landmarks": ("landmarks in three frames or more", "{:,}"), "frames_per_landmark": ("frames that show one, mean", "{:.2f}"),
         "median_error_px": ("distance of pixel and projection, median of the means (px)", "{:.2f}"),
         "features_s": ("features, processor seconds", "{:.0f}"), "rest_s": ("matching and landmarks, processor seconds", "{:.0f}"),
         "cpu_s": ("both", "{:.0f}"), "wall_s": ("both, on the wall", "{:.0f}")}
 
 
-def run_cairn(arguments, folder):
+def run_cairn(arguments, folder, *options):
     """Its figures. Stages run beside one another, so that only the sum of their processor time is known."""
     if folder.exists():
         shutil.rmtree(folder)
     command = [arguments.cairn, "map", arguments.sequence, "--frames", f"0:{arguments.frames}", "-o", folder, "--export", "colmap",
-               "--set", f"features={arguments.features}", "--set", f"window={arguments.window}", "--threads", arguments.threads, "--json"]
+               "--set", f"features={arguments.features}", "--set", f"window={arguments.window}", "--threads", arguments.threads, "--json", *options]
     begin = time.monotonic()
     with subprocess.Popen(list(map(str, command)), stdout=subprocess.DEVNULL) as child:
         _, status, usage = os.wait4(child.pid, 0)
@@ -73,6 +73,7 @@ def main():
     arguments = parser.parse_args()
     arguments.output.mkdir(parents=True, exist_ok=True)
     results = {"cairn": run_cairn(arguments, arguments.output / "map")}
+    results["exact"] = run_cairn(arguments, arguments.output / "exact", "--exact-poses")
     results["given"] = run_colmap(arguments, "given", None, arguments.matches)
     results["smoothed"] = run_colmap(arguments, "smoothed", arguments.output / "map" / "colmap", arguments.output / "given")
     (arguments.output / "results.json").write_text(json.dumps(results, indent=2) + "\n")
