@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
-#include "cairn/core/error.h"
 #include "cairn/geometry/covariance.h"
 
 namespace cairn {
@@ -246,11 +246,13 @@ Matrix3d LandmarkNoise::covariance_of(const LandmarkInformation& landmark) const
   const Matrix3d inverse = (landmark.pixels + landmark.disparities).inverse();
   const Matrix3d covariance =
       inverse * (of_pixels * landmark.pixels + of_disparities * landmark.disparities) * inverse;
-  require(covariance.allFinite(), "observations that determine the point");
+  if (!covariance.allFinite())
+    return Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
   return as_covariance(covariance);
 }
 
 void LandmarkNoiseModel::add(const LandmarkInformation& landmark) {
+  if (!std::isfinite(landmark.pixel_redundancy) || !std::isfinite(landmark.disagreement)) return;
   const Sample sample{landmark.pixel_errors,
                       landmark.disparity_errors,
                       landmark.pixel_redundancy,

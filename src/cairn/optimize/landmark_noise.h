@@ -50,8 +50,8 @@ struct LandmarkNoise {
   std::array<double, 2> disparities{0, 1};      ///< b0, b1
   std::array<double, 3> pixels{1, 0, 0};        ///< a0, a1, a2
 
-  /// Computes the covariance of a landmark's point, square metres. Throws PreconditionError if the
-  /// information does not determine the point.
+  /// Computes the covariance of a landmark's point, square metres. If the information does not determine the
+  /// point, it has infinity on the diagonal and zeros elsewhere.
   [[nodiscard]] Eigen::Matrix3d covariance_of(const LandmarkInformation& landmark) const;
 };
 
@@ -61,6 +61,7 @@ struct LandmarkNoise {
 /// the same bits whenever it is asked.
 class LandmarkNoiseModel {
  public:
+  /// Adds a landmark; ignores one whose information does not determine its point.
   void add(const LandmarkInformation& landmark);
   /// Returns the noise, as estimated when a power of two times 128 landmarks were added, or the last multiple
   /// of 2048; the default of LandmarkNoise until there are 128.

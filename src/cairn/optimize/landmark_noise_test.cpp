@@ -6,9 +6,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 #include <vector>
 
-#include "cairn/core/error.h"
 #include "cairn/core/random.h"
 #include "cairn/optimize/landmark_fit.h"
 
@@ -196,8 +196,14 @@ TEST_F(LandmarkNoiseTest, goes_on_with_what_was_stored) {
   EXPECT_EQ(model.noise().own.scale, restored.noise().own.scale);
 }
 
-TEST_F(LandmarkNoiseTest, does_not_state_a_covariance_of_an_open_point) {
-  EXPECT_THROW((void)LandmarkNoise{}.covariance_of({}), PreconditionError);
+TEST_F(LandmarkNoiseTest, knows_nothing_of_an_open_point) {
+  const LandmarkInformation open = information_of(kRig, cameras_, {}, {0, 0, 5});
+  const Matrix3d covariance = LandmarkNoise{}.covariance_of(open);
+  EXPECT_EQ(covariance(1, 1), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(covariance(0, 1), 0);
+  LandmarkNoiseModel model;
+  model.add(open);
+  EXPECT_EQ(model.count(), 0);
 }
 
 }  // namespace

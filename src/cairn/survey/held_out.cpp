@@ -8,17 +8,6 @@
 namespace cairn {
 namespace {
 
-/// Returns the observations of the landmark in frames other than `frame`.
-std::vector<CameraObservation> observations_without(const FrameBuffer& frames, const SurveyLandmark& landmark,
-                                                    KeyframeId frame) {
-  std::vector<CameraObservation> others;
-  for (const ObservationRef& observation : landmark.observations)
-    if (observation.keyframe != frame)
-      others.push_back({static_cast<std::int32_t>(frames.position(observation.keyframe)),
-                        observation_of(frames, observation)});
-  return others;
-}
-
 /// Returns the observations that the fit kept.
 std::vector<CameraObservation> kept(std::span<const CameraObservation> observations, const LandmarkFit& fit) {
   std::vector<CameraObservation> result;
@@ -56,7 +45,9 @@ HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const NoisePrior&
 void HoldOut::add(const SurveyLandmark& landmark) {
   for (const ObservationRef& observation : landmark.observations) {
     if (!is_held_out(observation.keyframe)) continue;
-    const auto others = observations_without(frames_, landmark, observation.keyframe);
+    std::vector<ObservationRef> others_in_map = landmark.observations;
+    std::erase(others_in_map, observation);
+    const auto others = with_positions(frames_, others_in_map);
     solver_.fit(others, fit_);
     if (fit_.status != LandmarkFitStatus::ok) continue;
     const auto information = information_of(rig_, cameras_, kept(others, fit_), fit_.point_in_world);

@@ -11,15 +11,6 @@
 namespace cairn {
 namespace {
 
-std::vector<CameraObservation> with_positions(const FrameBuffer& frames,
-                                              std::span<const ObservationRef> observations) {
-  std::vector<CameraObservation> result;
-  for (const ObservationRef& observation : observations)
-    result.push_back({static_cast<std::int32_t>(frames.position(observation.keyframe)),
-                      observation_of(frames, observation)});
-  return result;
-}
-
 SurveyLandmark make_landmark(const Rig& rig, const FrameBuffer& frames,
                              std::span<const CameraFromWorld> cameras,
                              std::span<const ObservationRef> observations, const LandmarkFit& fit) {
@@ -58,6 +49,15 @@ Eigen::Matrix3d pose_covariance_of(const FrameBuffer& frames, const SurveyLandma
 }
 
 }  // namespace
+
+std::vector<CameraObservation> with_positions(const FrameBuffer& frames,
+                                              std::span<const ObservationRef> observations) {
+  std::vector<CameraObservation> result;
+  for (const ObservationRef& observation : observations)
+    result.push_back({static_cast<std::int32_t>(frames.position(observation.keyframe)),
+                      observation_of(frames, observation)});
+  return result;
+}
 
 std::vector<PosedObservation> views_of(const FrameBuffer& frames, std::span<const CameraFromWorld> cameras,
                                        std::span<const ObservationRef> observations) {

@@ -44,6 +44,10 @@ struct AdjustedTracks {
   std::int64_t dropped_observations = 0;  ///< observations of landmarks that do not agree with their points
 };
 
+/// Returns observations with the positions of their frames in the buffer as numbers of their cameras.
+[[nodiscard]] std::vector<CameraObservation> with_positions(const FrameBuffer& frames,
+                                                            std::span<const ObservationRef> observations);
+
 /// Fits a point to the observations, whose frames are in the buffer, see LandmarkSolver. Returns nullopt if
 /// too few agree.
 [[nodiscard]] std::optional<SurveyLandmark> fit_observations(const Rig& rig, const FrameBuffer& frames,
