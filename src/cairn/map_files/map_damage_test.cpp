@@ -155,6 +155,11 @@ TEST(MapDamage, refuses_a_bad_map_json) {
                "61 bytes with norm number 0"),
       bad_info("other length", "\"bytes\": 61", "\"bytes\": 32",
                "expected descriptors of 32 bytes with norm hamming"),
+  });
+}
+
+TEST(MapDamage, refuses_bad_keyframes_and_counts_of_map_json) {
+  expect_refused({
       bad_info("file elsewhere", "frames/000001", "../../000001",
                "expected the file frames/000001.akaze for keyframe 1, found '../../000001.akaze'"),
       bad_info("part below 0", "\"part\": 1", "\"part\": -1", "expected parts from 0 up, found -1"),
