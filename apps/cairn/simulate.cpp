@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/report/recording_report.h"
 #include "cairn/simulate/write_kitti.h"
@@ -138,7 +139,13 @@ void add_street_options(CommandLine& street, SimulateStreetOptions& options, Arg
       "also the left camera's true depth, 16 bit, 1/256 m, as cairn evaluate --landmarks needs it");
 }
 
+/// Takes the errors of given poses from the command line. Throws InputError if a time is stated for none.
 void take_pose_errors(const Arguments& arguments, PoseErrorOptions& options) {
+  constexpr PoseErrorOptions kDefault;
+  const bool wanders = arguments.pose_error[0] > 0 || arguments.pose_error[1] > 0;
+  if (!wanders && options.correlation_time_s != kDefault.correlation_time_s)
+    throw InputError({"--pose-error-time", 0, "an error that wanders, --pose-error M DEG", "none",
+                      "State --pose-error as well, or leave out --pose-error-time."});
   options.position_std = arguments.pose_error[0];
   options.rotation_std_deg = arguments.pose_error[1];
   options.jitter_position_std = arguments.pose_jitter[0];

@@ -99,9 +99,9 @@ class Sample(unittest.TestCase):
 class Rendering(Sample):
     def test_writes_the_block_and_its_commits(self):
         self.assertEqual(self.documents().mend(), ["README.md"])
-        self.assertEqual((self.root / "README.md").read_text(), "Before.\n\n<!-- figures: slam (measured at abcdef1; times and memory at 1234567) -->\n"
+        self.assertEqual((self.root / "README.md").read_text(), "Before.\n\n<!-- figures: slam (measured at commit abcdef1; times and memory at commit 1234567) -->\n"
                          "| | ATE | time |\n|---|--:|--:|\n| drive, 200 pairs | 0.25 m | 3.2 s |\n\n"
-                         "Measured at abcdef1; times and memory at 1234567.\n<!-- end -->\n\nAfter.\n")
+                         "Measured at commit abcdef1; times and memory at commit 1234567.\n<!-- end -->\n\nAfter.\n")
         self.assertEqual(self.complaints(), [])
         self.assertEqual(self.documents().mend(), [])
 

@@ -87,9 +87,9 @@ class Renderer:
         results, times = (sorted({figure.commit for figure in figures if (figure.kind == "result") == wanted}) for wanted in (True, False))
         if not figures:
             return ""
-        said = [f"measured at {', '.join(results)}"] if results else []
+        said = [f"measured at commit {', '.join(results)}"] if results else []
         if times and times != results:
-            said.append(f"{'' if results else 'measured: '}times and memory at {', '.join(times)}")
+            said.append(f"{'' if results else 'measured: '}times and memory at commit {', '.join(times)}")
         return "; ".join(said)
 
     def render(self, template):

@@ -134,6 +134,8 @@ MapStatistics read_map_statistics(const fs::path& map_folder) {
     ++figures.component_keyframes[keyframe.component];
   (void)read_map_poses(folder, figures.info);
   (void)read_held_out(folder, figures.info);
+  if (figures.info.checksum_of(kNoiseFile))
+    check_sealed_file(folder / kNoiseFile, kNoiseKind, figures.info.checksum_of(kNoiseFile));
   check_sealed_file(folder / kPlaceFile, kPlaceKind, figures.info.checksum_of(kPlaceFile));
   const ObservationSet shown = read_frames(folder, figures.info);
   if (shown != read_landmarks(folder, figures))

@@ -10,6 +10,7 @@
 #include "cairn/core/file.h"
 #include "cairn/core/random.h"
 #include "cairn/map_files/map_file.h"
+#include "cairn/map_files/map_statistics.h"
 #include "cairn/map_files/stored_map.h"
 #include "cairn/testing/core/temporary_folder.h"
 #include "cairn/testing/map_files/scene_map.h"
@@ -235,6 +236,7 @@ TEST(MapWriter, a_damaged_or_foreign_file_of_noise_is_found) {
     damaged[i] = static_cast<char>(damaged[i] ^ 4);
     write_file(file, damaged);
     EXPECT_THROW(StoredMap(folder.path() / "map").check(), InputError) << i;
+    EXPECT_THROW((void)read_map_statistics(folder.path() / "map"), InputError) << i;
   }
   write_file(file, bytes.substr(0, bytes.size() / 2));
   EXPECT_THROW(StoredMap(folder.path() / "map").check(), InputError);

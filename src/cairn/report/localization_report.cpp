@@ -16,22 +16,26 @@ namespace {
 
 constexpr const char* kTimes = "times";
 
+/// Returns a length in centimetres, from a metre on in metres.
+std::string format_cm(double metres) {
+  return metres < 0.995 ? fmt::format("{:.2g} cm", 100 * metres) : fmt::format("{:.3g} m", metres);
+}
+
 /// Adds what is said of poses, if there are any. Without held-out frames the covariance knows noise alone,
 /// and the text says so.
 void add_precision(const std::vector<LocalizedImage>& images, TextBuilder& text) {
   const auto inliers = median_inliers(images), std_m = median_std_m(images);
   if (!inliers || !std_m) return;
   text.add("inliers      {:.0f} in the median\n", *inliers);
-  const double protection_cm = 100 * median_protection_m(images).value_or(0);
+  const std::string protection = format_cm(median_protection_m(images).value_or(0));
   if (const auto absolute_m = median_absolute_std_m(images)) {
-    text.add("position     {:.2g} cm within the map (standard deviation), protection level {:.2g} cm;\n",
-             100 * *std_m, protection_cm);
-    text.add("             {:.2g} cm in the world of the poses that made it (medians)\n", 100 * *absolute_m);
+    text.add("position     {} within the map (standard deviation), protection level {};\n", format_cm(*std_m),
+             protection);
+    text.add("             {} in the world of the poses that made it (medians)\n", format_cm(*absolute_m));
     return;
   }
-  text.add(
-      "position     {:.2g} cm by noise alone (standard deviation), protection level {:.2g} cm (medians);\n",
-      100 * *std_m, protection_cm);
+  text.add("position     {} by noise alone (standard deviation), protection level {} (medians);\n",
+           format_cm(*std_m), protection);
   text.add("             errors that the whole map has in common are in neither\n");
 }
 

@@ -91,11 +91,15 @@ Json to_json(const MovesInSigmas& moves) {
 
 /// Returns the end of a line, or nothing if no pose that states deviations was moved.
 std::string describe(const MovesInSigmas& moves) {
-  if (moves.largest.position == 0 && moves.largest.rotation == 0) return {};
-  return fmt::format(
-      ":\n             by {:.2g} of their standard deviations (median; {:.2g} at most), turned by {:.2g} "
-      "({:.2g})",
-      moves.median.position, moves.largest.position, moves.median.rotation, moves.largest.rotation);
+  std::vector<std::string> parts;
+  const auto add = [&](const char* verb, double median, double largest) {
+    if (largest > 0) parts.push_back(fmt::format("{} by {:.2g} ({:.2g} at most)", verb, median, largest));
+  };
+  add("moved", moves.median.position, moves.largest.position);
+  add("turned", moves.median.rotation, moves.largest.rotation);
+  if (parts.empty()) return {};
+  return fmt::format(":\n             in standard deviations that they state {} (medians)",
+                     fmt::join(parts, ", "));
 }
 
 Json to_json(const SurveyResult& result) {
@@ -206,7 +210,8 @@ std::string format_survey_text(const SurveyResult& result, const SurveySummary& 
   text.add("{}", describe(held_out_figures(result.held_out)));
   const std::string by_poses = result.pose_std_rms_m > 0
                                    ? fmt::format("{:.2g} m by the poses'", result.pose_std_rms_m)
-                                   : "none stated of the poses";
+                               : result.moves.frames > 0 ? "those of the poses not counted"
+                                                         : "none stated of the poses";
   text.add("deviations   {:.2g} m by what the images leave open, {} (RMS, worst direction)\n",
            result.image_std_rms_m, by_poses);
   text.add("map          {}; cairn info {} says how good it is\n", summary.folder, summary.folder);

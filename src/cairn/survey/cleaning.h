@@ -20,8 +20,7 @@ constexpr std::size_t kCleaningRules = 8;
 [[nodiscard]] std::string_view to_string(CleaningRule rule);
 
 /// Returns the first rule that the landmark fails, or nullopt if it passes all; a value that is not a number
-/// fails. `covariance` is the landmark's own, without what the errors of poses add
-/// (SurveyLandmark::own_covariance), square metres.
+/// fails. `covariance` is the landmark's own (SurveyLandmark::own_covariance), square metres.
 [[nodiscard]] std::optional<CleaningRule> failed_rule(const LandmarkIndicators& indicators,
                                                       const Eigen::Matrix3d& covariance,
                                                       const CleaningOptions& options);

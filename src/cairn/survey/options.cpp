@@ -76,8 +76,9 @@ void visit(CleaningOptions& cleaning, ParameterVisitor& visitor) {
                      "Fewest frames left of a landmark after bad observations were dropped."},
                     cleaning.min_frames);
   visitor.parameter({"clean.max_std_m", above(0, "metres"),
-                     "Largest standard deviation of a landmark along its worst direction, without what the "
-                     "deviations of the poses add."},
+                     "Largest standard deviation of a landmark along its worst direction by its own noise, "
+                     "without what its "
+                     "observations have in common and what the deviations of the poses add."},
                     cleaning.max_std_m);
   visitor.parameter({"clean.max_rms_px", above(0, "pixels"), "Largest RMS residual of (u, v)."},
                     cleaning.max_rms_px);

@@ -99,9 +99,10 @@ class PoseBundle {
   BundleProblem problem_;
 };
 
-/// Returns the length of a move over the standard deviation in its direction.
+/// Returns the length of a move over the standard deviation in its direction; NaN if none is stated.
 double in_sigmas(const Eigen::Vector3d& move, const Eigen::Matrix3d& covariance) {
   const double squared = move.squaredNorm();
+  if (covariance.isZero(0)) return std::numeric_limits<double>::quiet_NaN();
   if (squared == 0) return 0;
   const double variance = move.dot(covariance * move) / squared;
   return variance > 0 ? std::sqrt(squared / variance) : std::numeric_limits<double>::infinity();
@@ -170,7 +171,12 @@ MovesInSigmas summarise_moves(std::span<const MoveInSigmas> moves) {
   if (moves.empty()) return result;
   for (double MoveInSigmas::*part : {&MoveInSigmas::position, &MoveInSigmas::rotation}) {
     std::vector<double> sizes;
-    for (const MoveInSigmas& move : moves) sizes.push_back(move.*part);
+    for (const MoveInSigmas& move : moves)
+      if (!std::isnan(move.*part)) sizes.push_back(move.*part);
+    if (sizes.empty()) {
+      result.largest.*part = result.median.*part = std::numeric_limits<double>::quiet_NaN();
+      continue;
+    }
     result.largest.*part = *std::max_element(sizes.begin(), sizes.end());
     result.median.*part = median(std::move(sizes));
   }

@@ -40,7 +40,7 @@ struct PoseNoise {
 
 /// Computes by how many standard deviations, as `given` states them, `adjusted` differs from it: along the
 /// way between the centres, and about the axis of the turn; infinity along or about an axis that is stated as
-/// exact. `given` must state its uncertainty.
+/// exact, NaN if all three are, which is no statement. `given` must state its uncertainty.
 [[nodiscard]] MoveInSigmas move_in_sigmas(const GivenPose& given, const WorldFromCamera& adjusted);
 
 /// Summarises these; for an even number the larger of the two in the middle is the median.

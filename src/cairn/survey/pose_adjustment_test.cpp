@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "cairn/core/random.h"
@@ -219,6 +220,9 @@ TEST(MoveInSigmas, counts_in_the_direction_of_the_move) {
   EXPECT_NEAR(moved({0.3, 0.3, 0}, none).position, 0.3 * std::sqrt(2) / std::sqrt(0.025), 1e-9);
   EXPECT_EQ(moved(none, none).position, 0);
   EXPECT_TRUE(std::isinf(moved({0, 0, 1e-3}, none).position));  // stated as exact
+  given.uncertainty->rotation.setZero();
+  EXPECT_TRUE(std::isnan(moved(none, {0, 4e-3, 0}).rotation));  // nothing is stated
+  EXPECT_NEAR(moved({0.3, 0, 0}, none).position, 3, 1e-9);
 }
 
 TEST(MoveInSigmas, has_median_and_largest) {
@@ -230,6 +234,10 @@ TEST(MoveInSigmas, has_median_and_largest) {
   EXPECT_EQ(summary.largest.position, 3);
   EXPECT_EQ(summary.median.rotation, 0.2);
   EXPECT_EQ(summary.largest.rotation, 0.5);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const MoveInSigmas of_some[] = {{3, none}, {none, none}, {2, none}};
+  EXPECT_EQ(summarise_moves(of_some).largest.position, 3);
+  EXPECT_TRUE(std::isnan(summarise_moves(of_some).median.rotation));
 }
 
 /// Tracks of points in one frame, and the next one, whose odometry is 5 cm and 3 mrad wrong.

@@ -67,12 +67,13 @@ struct StatedDeviations {
 };
 
 /// Holds by how many of its stated standard deviations a given pose was moved and turned, each in the
-/// direction of the move; 0 where it was not.
+/// direction of the move; 0 where it was not, NaN where it states none.
 struct MoveInSigmas {
   double position = 0, rotation = 0;
 };
 
-/// Holds the distribution over the frames of MoveInSigmas; all 0 without frames.
+/// Holds the distribution over the frames of MoveInSigmas, those that state deviations; NaN if none does, all
+/// 0 without frames.
 struct MovesInSigmas {
   std::int64_t frames = 0;  ///< whose poses state standard deviations
   MoveInSigmas median, largest;

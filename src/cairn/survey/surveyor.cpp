@@ -202,20 +202,24 @@ void Surveyor::write_landmarks(KeyframeId seen_before) {
       later.push_back(std::move(landmark));
       continue;
     }
-    for (const ObservationRef& observation : landmark.observations)
-      state_.frames[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)] =
-          state_.next_landmark;
     complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
     hold_out.add(landmark);
-    writer_.add_landmark(finished(state_.frames, landmark, stated));
-    ++state_.next_landmark.value;
-    ++state_.counts.landmarks;
-    state_.counts.observations += static_cast<std::int64_t>(landmark.observations.size());
-    count_residuals(rig_, state_.frames, landmark, state_.counts);
-    count_uncertainty(landmark, state_.counts);
+    write_landmark(landmark, stated);
   }
   state_.pending = std::move(later);
   times_.writing += watch.lap();
+}
+
+void Surveyor::write_landmark(const SurveyLandmark& landmark, bool stated) {
+  for (const ObservationRef& observation : landmark.observations)
+    state_.frames[observation.keyframe].landmarks[static_cast<std::size_t>(observation.feature)] =
+        state_.next_landmark;
+  writer_.add_landmark(finished(state_.frames, landmark, stated));
+  ++state_.next_landmark.value;
+  ++state_.counts.landmarks;
+  state_.counts.observations += static_cast<std::int64_t>(landmark.observations.size());
+  count_residuals(rig_, state_.frames, landmark, state_.counts);
+  count_uncertainty(landmark, state_.counts);
 }
 
 /// Writes the frames before `before`, whose landmarks must all be known.

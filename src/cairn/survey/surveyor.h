@@ -30,6 +30,7 @@ class Surveyor {
   void adjust_settled_tracks(const Executor& executor);
   [[nodiscard]] std::vector<SurveyLandmark> clean(std::vector<SurveyLandmark>&& landmarks);
   void write_landmarks(KeyframeId seen_before);
+  void write_landmark(const SurveyLandmark& landmark, bool stated);
   void write_frames(KeyframeId before);
   [[nodiscard]] KeyframeId first_open_frame() const;
 
