@@ -2,6 +2,7 @@
 #include "cairn/survey/checkpoint.h"
 
 #include <array>
+#include <bit>
 
 #include "cairn/core/append_file.h"
 #include "cairn/core/error.h"
@@ -250,25 +251,16 @@ VarianceModel::Sums get_sums(BinaryReader& reader) {
 
 using NoiseSample = LandmarkNoiseModel::Sample;
 
-/// Returns the numbers of a sample, in the order in which they are stored.
-std::array<double*, 9> fields_of(NoiseSample& sample) {
-  return {&sample.pixel_errors,
-          &sample.disparity_errors,
-          &sample.pixel_redundancy,
-          &sample.disparity_redundancy,
-          &sample.disparity_share,
-          &sample.disagreement,
-          &sample.disagreement_by_pixels,
-          &sample.disagreement_by_disparities,
-          &sample.observations};
-}
+using SampleNumbers = std::array<double, sizeof(NoiseSample) / sizeof(double)>;
 
 void put(NoiseSample sample, ByteWriter& writer) {
-  for (const double* field : fields_of(sample)) writer.put(*field);
+  for (const double number : std::bit_cast<SampleNumbers>(sample)) writer.put(number);
 }
 
 void get(BinaryReader& reader, NoiseSample& sample) {
-  for (double* field : fields_of(sample)) *field = reader.get<double>();
+  SampleNumbers numbers{};
+  for (double& number : numbers) number = reader.get<double>();
+  sample = std::bit_cast<NoiseSample>(numbers);
 }
 
 /// Returns the numbers of the noise, in the order in which they are stored.
