@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/sequence/given_poses.h"
 #include "cairn/simulate/write_kitti.h"
 #include "cairn/simulate/write_tum.h"
+#include "cairn/testing/core/message_of.h"
 #include "cairn/testing/core/temporary_folder.h"
 
 namespace cairn {
@@ -97,12 +97,7 @@ TEST(PoseError, depends_on_seed_and_stamps_alone) {
 
 /// Expects that the options are refused with this message.
 void expect_refused(const PoseErrorOptions& options, const char* message) {
-  try {
-    options.validate();
-    FAIL() << message;
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), message);
-  }
+  EXPECT_EQ(testkit::message_of([&] { return options.validate(); }), message);
 }
 
 TEST(PoseError, wrong_options_are_named) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
+#include "cairn/testing/core/message_of.h"
 
 namespace cairn {
 namespace {
@@ -203,12 +204,7 @@ TEST(simulated_street, few_frames_make_a_part_of_a_round) {
 
 /// Expects that the options are refused with this message.
 void expect_refused(const SimulateStreetOptions& options, const char* message) {
-  try {
-    options.validate();
-    FAIL() << message;
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), message);
-  }
+  EXPECT_EQ(testkit::message_of([&] { return options.validate(); }), message);
 }
 
 TEST(simulated_street, wrong_options_are_named) {

@@ -109,7 +109,7 @@ std::optional<SurveyLandmark> joined(const MergeInput& input, const SurveyLandma
   if (!landmark || static_cast<double>(landmark->observations.size()) <
                        kMinKept * static_cast<double>(observations.size()))
     return std::nullopt;
-  complete_covariance(frames, prior, options.covariance.pose_errors, *landmark);
+  landmark->variance_factor = prior.factor(landmark->squared_error_sum, landmark->redundancy);
   if (failed_rule(landmark->indicators, landmark->own_covariance(), options.cleaning)) return std::nullopt;
   return landmark;
 }

@@ -12,7 +12,7 @@ namespace cairn {
 struct MergeInput {
   const Rig& rig;
   const FrameBuffer& frames;
-  const NoisePrior& prior;
+  const VariancePrior& prior;
   const SurveyOptions& options;
 };
 

@@ -26,7 +26,7 @@ class MergeDuplicates : public testing::Test {
         fit_observations(kDriveRig, frames_, testkit::observations_of(feature, first, last), options_);
     EXPECT_TRUE(fitted.has_value());
     if (!fitted) return {};
-    complete_covariance(frames_, prior_, true, *fitted);
+    complete_covariance(frames_, {prior_, {}}, true, *fitted);
     return *fitted;
   }
   std::int64_t merge(std::vector<SurveyLandmark>&& added) {
@@ -34,7 +34,7 @@ class MergeDuplicates : public testing::Test {
   }
 
   FrameBuffer frames_ = testkit::drive(points(), 14, 0.3);
-  NoisePrior prior_;
+  VariancePrior prior_;
   SurveyOptions options_;
   std::vector<SurveyLandmark> pending_;
 };
@@ -52,7 +52,7 @@ TEST_F(MergeDuplicates, what_is_one_becomes_one) {
   EXPECT_LT(pending_[0].covariance().trace(), early.covariance().trace());
   EXPECT_LT(pending_[0].covariance().trace(), late.covariance().trace());
   EXPECT_EQ(pending_[0].variance_factor,
-            prior_.variance.factor(pending_[0].squared_error_sum, pending_[0].redundancy));
+            prior_.factor(pending_[0].squared_error_sum, pending_[0].redundancy));
 }
 
 TEST_F(MergeDuplicates, in_a_common_frame_the_earlier_ones_observation_stays) {

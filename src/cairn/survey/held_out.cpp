@@ -43,11 +43,12 @@ HoldOut::HoldOut(const Rig& rig, const SurveyOptions& options, const NoisePrior&
       solver_(rig, cameras_, options.fit) {}
 
 void HoldOut::add(const SurveyLandmark& landmark) {
-  for (const ObservationRef& observation : landmark.observations) {
+  const std::vector<CameraObservation> all = with_positions(frames_, landmark.observations);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ObservationRef& observation = landmark.observations[i];
     if (!is_held_out(observation.keyframe)) continue;
-    std::vector<ObservationRef> others_in_map = landmark.observations;
-    std::erase(others_in_map, observation);
-    const auto others = with_positions(frames_, others_in_map);
+    std::vector<CameraObservation> others = all;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     solver_.fit(others, fit_);
     if (fit_.status != LandmarkFitStatus::ok) continue;
     const auto information = information_of(rig_, cameras_, kept(others, fit_), fit_.point_in_world);

@@ -167,17 +167,17 @@ void Surveyor::adjust_settled_tracks(const Executor& executor) {
     state_.variance.add(landmark.squared_error_sum, landmark.redundancy);
   std::vector<SurveyLandmark> cleaned = clean(std::move(adjusted.landmarks));
   times_.adjustment += watch.lap();
-  const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
+  const VariancePrior prior = state_.variance.prior();
   counts.merged +=
       merge_duplicates({rig_, state_.frames, prior, options_}, std::move(cleaned), state_.pending);
   times_.merging += watch.lap();
 }
 
 std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landmarks) {
-  const NoisePrior prior{state_.variance.prior(), state_.noise.noise()};
+  const VariancePrior prior = state_.variance.prior();
   std::vector<SurveyLandmark> kept;
   for (SurveyLandmark& landmark : landmarks) {
-    complete_covariance(state_.frames, prior, options_.covariance.pose_errors, landmark);
+    landmark.variance_factor = prior.factor(landmark.squared_error_sum, landmark.redundancy);
     const auto rule = failed_rule(landmark.indicators, landmark.own_covariance(), options_.cleaning);
     if (rule) {
       ++state_.counts.cleaned[static_cast<std::size_t>(*rule)];
