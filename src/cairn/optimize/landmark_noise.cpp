@@ -35,12 +35,12 @@ class InformationSum {
                    error = rig_.project(point) - Vector3d(seen.u, seen.v, seen.d);
     const auto of_pixel = jacobian.topRows<2>();
     sum_.pixels.noalias() += weights[0] * of_pixel.transpose() * of_pixel;
-    sum_.pixel_errors += weights[0] * error.head<2>().squaredNorm();
-    ++sum_.observations;
+    sum_.errors.pixel_errors += weights[0] * error.head<2>().squaredNorm();
+    ++sum_.errors.observations;
     if (!seen.has_disparity()) return;
     ++disparities_;
     sum_.disparities.noalias() += weights[2] * jacobian.row(2).transpose() * jacobian.row(2);
-    sum_.disparity_errors += weights[2] * error[2] * error[2];
+    sum_.errors.disparity_errors += weights[2] * error[2] * error[2];
     mean_gradient_ += weights[2] * jacobian.row(2).transpose();
     weighted_error_ += weights[2] * error[2];
     weight_ += weights[2];
@@ -49,8 +49,8 @@ class InformationSum {
   [[nodiscard]] LandmarkInformation finish() {
     const Matrix3d inverse = (sum_.pixels + sum_.disparities).inverse();
     const double by_disparities = (inverse * sum_.disparities).trace();  // of the three values of the point
-    sum_.pixel_redundancy = 2.0 * sum_.observations - (3 - by_disparities);
-    sum_.disparity_redundancy = disparities_ - by_disparities;
+    sum_.errors.pixel_redundancy = 2.0 * sum_.errors.observations - (3 - by_disparities);
+    sum_.errors.disparity_redundancy = disparities_ - by_disparities;
     if (disparities_ > 0) compare_depths(inverse);
     return sum_;
   }
@@ -62,11 +62,12 @@ class InformationSum {
   void compare_depths(const Matrix3d& inverse) {
     const Vector3d gain = inverse * mean_gradient_;
     const double by_disparities = gain.dot(sum_.disparities * gain) / weight_;
-    sum_.disparity_share = std::clamp(mean_gradient_.dot(gain) / weight_, 0.0, 1.0);
-    if (sum_.disparity_share >= kMostShare) return;
-    sum_.disagreement = weighted_error_ * weighted_error_ / weight_;
-    sum_.disagreement_by_pixels = gain.dot(sum_.pixels * gain) / weight_;
-    sum_.disagreement_by_disparities = std::max(0.0, 1 - 2 * sum_.disparity_share + by_disparities);
+    sum_.errors.disparity_share = std::clamp(mean_gradient_.dot(gain) / weight_, 0.0, 1.0);
+    if (sum_.errors.disparity_share >= kMostShare) return;
+    sum_.errors.disagreement = weighted_error_ * weighted_error_ / weight_;
+    sum_.errors.disagreement_by_pixels = gain.dot(sum_.pixels * gain) / weight_;
+    sum_.errors.disagreement_by_disparities =
+        std::max(0.0, 1 - 2 * sum_.errors.disparity_share + by_disparities);
   }
 
   const Rig& rig_;
@@ -79,11 +80,10 @@ class InformationSum {
 
 /// Computes the typical ratio of errors and redundancies: the mean of logarithms, which blurred landmarks
 /// hardly move. 1 if there are none.
-template <class Samples>
-double typical(const Samples& samples, double LandmarkNoiseModel::Sample::*errors,
-               double LandmarkNoiseModel::Sample::*redundancy) {
+double typical(const std::vector<LandmarkErrors>& samples, double LandmarkErrors::*errors,
+               double LandmarkErrors::*redundancy) {
   double sum = 0, count = 0;
-  for (const auto& sample : samples) {
+  for (const LandmarkErrors& sample : samples) {
     if (!(sample.*redundancy > 1)) continue;
     sum += std::log(std::max(kLeastErrors, sample.*errors / sample.*redundancy));
     ++count;
@@ -130,11 +130,10 @@ struct ComponentProblem {
 /// Estimates the noise of the samples.
 class NoiseFit {
  public:
-  using Sample = LandmarkNoiseModel::Sample;
-
-  explicit NoiseFit(const std::vector<Sample>& samples) : samples_(samples) {
-    noise_.pixel_scale = typical(samples, &Sample::pixel_errors, &Sample::pixel_redundancy);
-    noise_.disparity_scale = typical(samples, &Sample::disparity_errors, &Sample::disparity_redundancy);
+  explicit NoiseFit(const std::vector<LandmarkErrors>& samples) : samples_(samples) {
+    noise_.pixel_scale = typical(samples, &LandmarkErrors::pixel_errors, &LandmarkErrors::pixel_redundancy);
+    noise_.disparity_scale =
+        typical(samples, &LandmarkErrors::disparity_errors, &LandmarkErrors::disparity_redundancy);
     fit_own();
     fit_scatter();
     fit_disagreement();
@@ -145,35 +144,30 @@ class NoiseFit {
  private:
   void fit_own() {
     VarianceModel model;
-    for (const Sample& sample : samples_)
-      if (redundancy(sample) >= 1) model.add(errors(sample), redundancy(sample));
+    for (const LandmarkErrors& sample : samples_)
+      if (sample.redundancy() >= 1) model.add(noise_.scaled_errors(sample), sample.redundancy());
     noise_.own = model.prior();
-    for (const Sample& sample : samples_)
-      factors_.push_back(noise_.own.factor(errors(sample), redundancy(sample)));
-  }
-  [[nodiscard]] double errors(const Sample& sample) const {
-    return sample.pixel_errors / noise_.pixel_scale + sample.disparity_errors / noise_.disparity_scale;
-  }
-  [[nodiscard]] static double redundancy(const Sample& sample) {
-    return sample.pixel_redundancy + sample.disparity_redundancy;
+    for (const LandmarkErrors& sample : samples_) factors_.push_back(noise_.factor_of(sample));
   }
 
   void fit_scatter() {
-    const ArrayXd disparities = fit_scatter(2, &Sample::disparity_errors, &Sample::disparity_redundancy);
+    const ArrayXd disparities =
+        fit_scatter(2, &LandmarkErrors::disparity_errors, &LandmarkErrors::disparity_redundancy);
     if (disparities.size() > 0) noise_.disparities = {disparities[1], disparities[0]};
-    const ArrayXd pixels = fit_scatter(1, &Sample::pixel_errors, &Sample::pixel_redundancy);
+    const ArrayXd pixels = fit_scatter(1, &LandmarkErrors::pixel_errors, &LandmarkErrors::pixel_redundancy);
     if (pixels.size() > 0) noise_.pixels[0] = pixels[0];
   }
   /// Returns the parts of the variance: in proportion to a landmark's own factor and, if there are two, of
   /// all alike; none if too few landmarks show them.
-  [[nodiscard]] ArrayXd fit_scatter(Eigen::Index parts, double Sample::*errors,
-                                    double Sample::*redundancy) const {
-    const auto used = select([&](const Sample& sample) { return sample.*redundancy > kLeastRedundancy; });
+  [[nodiscard]] ArrayXd fit_scatter(Eigen::Index parts, double LandmarkErrors::*errors,
+                                    double LandmarkErrors::*redundancy) const {
+    const auto used =
+        select([&](const LandmarkErrors& sample) { return sample.*redundancy > kLeastRedundancy; });
     if (static_cast<std::int64_t>(used.size()) < kFewest) return {};
     ComponentProblem problem = problem_of(used, parts);
     problem.cut = 6;
     for (std::size_t i = 0; i < used.size(); ++i) {
-      const Sample& sample = samples_[used[i]];
+      const LandmarkErrors& sample = samples_[used[i]];
       const auto row = static_cast<Eigen::Index>(i);
       problem.parts(row, 0) = factors_[used[i]];
       problem.squares[row] = sample.*errors / (sample.*redundancy);
@@ -183,13 +177,13 @@ class NoiseFit {
   }
 
   void fit_disagreement() {
-    const auto used = select([](const Sample& sample) { return sample.disagreement > 0; });
+    const auto used = select([](const LandmarkErrors& sample) { return sample.disagreement > 0; });
     if (static_cast<std::int64_t>(used.size()) < kFewest) return;
     ComponentProblem problem = problem_of(used, 2);
     problem.cut = 2.25;     // 1.5 standard deviations
     problem.kept = 0.7785;  // mean of min(x^2, 2.25) of a standard normal x
     for (std::size_t i = 0; i < used.size(); ++i) {
-      const Sample& sample = samples_[used[i]];
+      const LandmarkErrors& sample = samples_[used[i]];
       const auto row = static_cast<Eigen::Index>(i);
       const double factor = factors_[used[i]], unit = 1 / (1 - sample.disparity_share);
       const double by_pixels = unit * factor * sample.disagreement_by_pixels;
@@ -221,7 +215,7 @@ class NoiseFit {
     return problem;
   }
 
-  const std::vector<Sample>& samples_;
+  const std::vector<LandmarkErrors>& samples_;
   LandmarkNoise noise_;
   std::vector<double> factors_;
 };
@@ -238,10 +232,10 @@ LandmarkInformation information_of(const Rig& rig, std::span<const CameraFromWor
 }
 
 Matrix3d LandmarkNoise::covariance_of(const LandmarkInformation& landmark) const {
-  const double errors = landmark.pixel_errors / pixel_scale + landmark.disparity_errors / disparity_scale;
-  const double factor = own.factor(errors, landmark.pixel_redundancy + landmark.disparity_redundancy);
+  const LandmarkErrors& errors = landmark.errors;
+  const double factor = factor_of(errors);
   const double of_pixels =
-      factor * (pixels[0] + pixels[1] * landmark.observations + pixels[2] * (1 - landmark.disparity_share));
+      factor * (pixels[0] + pixels[1] * errors.observations + pixels[2] * (1 - errors.disparity_share));
   const double of_disparities = disparities[0] + disparities[1] * factor;
   const Matrix3d inverse = (landmark.pixels + landmark.disparities).inverse();
   const Matrix3d covariance =
@@ -251,21 +245,12 @@ Matrix3d LandmarkNoise::covariance_of(const LandmarkInformation& landmark) const
   return as_covariance(covariance);
 }
 
-void LandmarkNoiseModel::add(const LandmarkInformation& landmark) {
+void LandmarkNoiseModel::add(const LandmarkErrors& landmark) {
   if (!std::isfinite(landmark.pixel_redundancy) || !std::isfinite(landmark.disagreement)) return;
-  const Sample sample{landmark.pixel_errors,
-                      landmark.disparity_errors,
-                      landmark.pixel_redundancy,
-                      landmark.disparity_redundancy,
-                      landmark.disparity_share,
-                      landmark.disagreement,
-                      landmark.disagreement_by_pixels,
-                      landmark.disagreement_by_disparities,
-                      static_cast<double>(landmark.observations)};
   if (samples_.size() < kMostSamples)
-    samples_.push_back(sample);
+    samples_.push_back(landmark);
   else
-    samples_[static_cast<std::size_t>(count_) % kMostSamples] = sample;
+    samples_[static_cast<std::size_t>(count_) % kMostSamples] = landmark;
   ++count_;
   const bool is_due =
       count_ % kEvery == 0 || (count_ >= kFewest && std::has_single_bit(static_cast<std::uint64_t>(count_)));

@@ -12,13 +12,10 @@
 
 namespace cairn {
 
-/// Holds what the observations of a landmark say of its point, at the adjusted point. Pixels (u, v) and
-/// disparities are kept apart, because their noise is. All is by the standard deviations that the
-/// observations state, cameras taken as exact.
-struct LandmarkInformation {
-  Eigen::Matrix3d pixels = Eigen::Matrix3d::Zero();  ///< inverse covariance by u and v, 1 / m^2
-  Eigen::Matrix3d disparities =
-      Eigen::Matrix3d::Zero();  ///< the same by the disparities; zero: there are none
+/// Holds by how much the observations of a landmark miss its adjusted point. Pixels (u, v) and disparities
+/// are kept apart, because their noise is. All is by the standard deviations that the observations state,
+/// cameras taken as exact.
+struct LandmarkErrors {
   /// Sums of squared errors, in variances, and their redundancies: values that were measured, less those that
   /// the point took. That of the disparities is 0 if there are none.
   double pixel_errors = 0, disparity_errors = 0, pixel_redundancy = 0, disparity_redundancy = 0;
@@ -30,7 +27,17 @@ struct LandmarkInformation {
   /// is `disagreement_by_pixels` times the pixels' variance plus `disagreement_by_disparities` times theirs.
   /// All are 0 unless both say something of the depth (l < 0.995).
   double disagreement = 0, disagreement_by_pixels = 0, disagreement_by_disparities = 0;
-  std::int32_t observations = 0;
+  double observations = 0;  ///< their number
+
+  [[nodiscard]] double redundancy() const { return pixel_redundancy + disparity_redundancy; }
+};
+
+/// Holds what the observations of a landmark say of its point, at the adjusted point.
+struct LandmarkInformation {
+  Eigen::Matrix3d pixels = Eigen::Matrix3d::Zero();  ///< inverse covariance by u and v, 1 / m^2
+  Eigen::Matrix3d disparities =
+      Eigen::Matrix3d::Zero();  ///< the same by the disparities; zero: there are none
+  LandmarkErrors errors;
 };
 
 /// Computes what observations say of a point. `cameras` are what their numbers count.
@@ -50,6 +57,14 @@ struct LandmarkNoise {
   std::array<double, 2> disparities{0, 1};      ///< b0, b1
   std::array<double, 3> pixels{1, 0, 0};        ///< a0, a1, a2
 
+  /// Computes the squared errors of a landmark in units of the scales.
+  [[nodiscard]] double scaled_errors(const LandmarkErrors& errors) const {
+    return errors.pixel_errors / pixel_scale + errors.disparity_errors / disparity_scale;
+  }
+  /// Computes f of a landmark.
+  [[nodiscard]] double factor_of(const LandmarkErrors& errors) const {
+    return own.factor(scaled_errors(errors), errors.redundancy());
+  }
   /// Computes the covariance of a landmark's point, square metres. If the information does not determine the
   /// point, it has infinity on the diagonal and zeros elsewhere.
   [[nodiscard]] Eigen::Matrix3d covariance_of(const LandmarkInformation& landmark) const;
@@ -61,27 +76,21 @@ struct LandmarkNoise {
 /// the same bits whenever it is asked.
 class LandmarkNoiseModel {
  public:
-  /// Adds a landmark; ignores one whose information does not determine its point.
-  void add(const LandmarkInformation& landmark);
+  /// Adds a landmark; ignores one whose observations do not determine its point.
+  void add(const LandmarkErrors& landmark);
   /// Returns the noise, as estimated when a power of two times 128 landmarks were added, or the last multiple
   /// of 2048; the default of LandmarkNoise until there are 128.
   [[nodiscard]] const LandmarkNoise& noise() const { return noise_; }
   [[nodiscard]] std::int64_t count() const { return count_; }
 
-  /// Holds what the model knows of a landmark.
-  struct Sample {
-    double pixel_errors = 0, disparity_errors = 0, pixel_redundancy = 0, disparity_redundancy = 0;
-    double disparity_share = 0, disagreement = 0, disagreement_by_pixels = 0, disagreement_by_disparities = 0;
-    double observations = 0;
-  };
   LandmarkNoiseModel() = default;
   /// Restores a model of which `samples`, `count` and `noise` were stored.
-  LandmarkNoiseModel(std::vector<Sample>&& samples, std::int64_t count, const LandmarkNoise& noise)
+  LandmarkNoiseModel(std::vector<LandmarkErrors>&& samples, std::int64_t count, const LandmarkNoise& noise)
       : samples_(std::move(samples)), count_(count), noise_(noise) {}
-  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  [[nodiscard]] const std::vector<LandmarkErrors>& samples() const { return samples_; }
 
  private:
-  std::vector<Sample> samples_;  // a ring
+  std::vector<LandmarkErrors> samples_;  // a ring
   std::int64_t count_ = 0;
   LandmarkNoise noise_;
 };

@@ -74,7 +74,7 @@ class LandmarkNoiseTest : public testing::Test {
   LandmarkNoiseModel model_of(const Truth& truth, int landmarks) {
     LandmarkNoiseModel model;
     Vector3d point;
-    for (int i = 0; i < landmarks; ++i) model.add(fitted(simulate(truth), point));
+    for (int i = 0; i < landmarks; ++i) model.add(fitted(simulate(truth), point).errors);
     return model;
   }
 
@@ -119,14 +119,14 @@ TEST_F(LandmarkNoiseTest, information_is_that_of_the_fit) {
     const SimulatedLandmark landmark = simulate({});
     const LandmarkFit fit = fit_landmark(kRig, cameras_, landmark.observations, {.max_error = 1e3});
     const auto found = information_of(kRig, cameras_, landmark.observations, fit.point_in_world);
-    EXPECT_EQ(found.observations, std::ssize(landmark.observations));
-    EXPECT_NEAR(found.pixel_errors + found.disparity_errors, fit.squared_error_sum,
+    EXPECT_EQ(found.errors.observations, static_cast<double>(landmark.observations.size()));
+    EXPECT_NEAR(found.errors.pixel_errors + found.errors.disparity_errors, fit.squared_error_sum,
                 1e-6 * fit.squared_error_sum);
-    EXPECT_NEAR(found.pixel_redundancy + found.disparity_redundancy, fit.redundancy, 1e-9);
+    EXPECT_NEAR(found.errors.pixel_redundancy + found.errors.disparity_redundancy, fit.redundancy, 1e-9);
     const Matrix3d covariance = (found.pixels + found.disparities).inverse();
     EXPECT_LT((covariance - fit.covariance).norm(), 1e-4 * covariance.norm());
-    EXPECT_GT(found.disparity_share, 0);
-    EXPECT_LT(found.disparity_share, 1);
+    EXPECT_GT(found.errors.disparity_share, 0);
+    EXPECT_LT(found.errors.disparity_share, 1);
   }
 }
 
@@ -134,10 +134,10 @@ TEST_F(LandmarkNoiseTest, one_camera_knows_the_depth_by_disparity_alone) {
   SimulatedLandmark landmark = simulate({});
   landmark.observations.resize(1);
   const auto found = information_of(kRig, cameras_, landmark.observations, landmark.point);
-  EXPECT_NEAR(found.disparity_share, 1, 1e-9);
-  EXPECT_EQ(found.disagreement, 0);
-  EXPECT_NEAR(found.pixel_redundancy, 0, 1e-9);
-  EXPECT_NEAR(found.disparity_redundancy, 0, 1e-9);
+  EXPECT_NEAR(found.errors.disparity_share, 1, 1e-9);
+  EXPECT_EQ(found.errors.disagreement, 0);
+  EXPECT_NEAR(found.errors.pixel_redundancy, 0, 1e-9);
+  EXPECT_NEAR(found.errors.disparity_redundancy, 0, 1e-9);
 }
 
 TEST_F(LandmarkNoiseTest, pixels_alone_have_no_disparities) {
@@ -145,8 +145,8 @@ TEST_F(LandmarkNoiseTest, pixels_alone_have_no_disparities) {
   for (auto& [camera, seen] : landmark.observations) seen = without_disparity(seen);
   const auto found = information_of(kRig, cameras_, landmark.observations, landmark.point);
   EXPECT_TRUE(found.disparities.isZero(0));
-  EXPECT_EQ(found.disparity_share, 0);
-  EXPECT_EQ(found.disagreement, 0);
+  EXPECT_EQ(found.errors.disparity_share, 0);
+  EXPECT_EQ(found.errors.disagreement, 0);
   EXPECT_TRUE(LandmarkNoise{}.covariance_of(found).allFinite());
 }
 
@@ -154,8 +154,9 @@ TEST_F(LandmarkNoiseTest, is_the_variance_factor_alone_while_little_is_known) {
   const LandmarkNoiseModel model = model_of({.pixels = 9, .disparities = 9}, 127);
   Vector3d point;
   const LandmarkInformation landmark = fitted(simulate({}), point);
-  const double factor = VariancePrior{}.factor(landmark.pixel_errors + landmark.disparity_errors,
-                                               landmark.pixel_redundancy + landmark.disparity_redundancy);
+  const double factor =
+      VariancePrior{}.factor(landmark.errors.pixel_errors + landmark.errors.disparity_errors,
+                             landmark.errors.pixel_redundancy + landmark.errors.disparity_redundancy);
   const Matrix3d expected = factor * (landmark.pixels + landmark.disparities).inverse();
   EXPECT_LT((model.noise().covariance_of(landmark) - expected).norm(), 1e-9 * expected.norm());
 }
@@ -187,8 +188,8 @@ TEST_F(LandmarkNoiseTest, goes_on_with_what_was_stored) {
   Vector3d point;
   for (int i = 0; i < 2000; ++i) {
     const LandmarkInformation landmark = fitted(simulate({.pixels = 2}), point);
-    model.add(landmark);
-    restored.add(landmark);
+    model.add(landmark.errors);
+    restored.add(landmark.errors);
   }
   EXPECT_EQ(model.samples().size(), 4096U);
   EXPECT_EQ(model.noise().pixels, restored.noise().pixels);
@@ -202,7 +203,7 @@ TEST_F(LandmarkNoiseTest, knows_nothing_of_an_open_point) {
   EXPECT_EQ(covariance(1, 1), std::numeric_limits<double>::infinity());
   EXPECT_EQ(covariance(0, 1), 0);
   LandmarkNoiseModel model;
-  model.add(open);
+  model.add(open.errors);
   EXPECT_EQ(model.count(), 0);
 }
 

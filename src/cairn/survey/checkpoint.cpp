@@ -12,7 +12,7 @@
 namespace cairn {
 namespace {
 
-constexpr BinaryKind kKind{"CAIRNSVY", 5};
+constexpr BinaryKind kKind{"CAIRNSVY", 6};
 constexpr const char* kName = "checkpoint.bin";
 constexpr const char* kNextName = "checkpoint.next";
 
@@ -64,8 +64,8 @@ void put(const Track& track, ByteWriter& writer);
 void get(BinaryReader& reader, Track& track);
 void put(const SurveyLandmark& landmark, ByteWriter& writer);
 void get(BinaryReader& reader, SurveyLandmark& landmark);
-void put(LandmarkNoiseModel::Sample sample, ByteWriter& writer);
-void get(BinaryReader& reader, LandmarkNoiseModel::Sample& sample);
+void put(const LandmarkErrors& errors, ByteWriter& writer);
+void get(BinaryReader& reader, LandmarkErrors& errors);
 
 template <class Item>
 void put(const std::vector<Item>& items, ByteWriter& writer) {
@@ -164,26 +164,28 @@ Rigid3 get_transform(BinaryReader& reader) {
   return transform;
 }
 
-/// Returns the numbers of the information, in the order in which they are stored.
-std::array<double*, 8> fields_of(LandmarkInformation& information) {
-  return {&information.pixel_errors,           &information.disparity_errors,
-          &information.pixel_redundancy,       &information.disparity_redundancy,
-          &information.disparity_share,        &information.disagreement,
-          &information.disagreement_by_pixels, &information.disagreement_by_disparities};
+using ErrorNumbers = std::array<double, sizeof(LandmarkErrors) / sizeof(double)>;
+
+void put(const LandmarkErrors& errors, ByteWriter& writer) {
+  for (const double number : std::bit_cast<ErrorNumbers>(errors)) writer.put(number);
 }
 
-void put(LandmarkInformation information, ByteWriter& writer) {
+void get(BinaryReader& reader, LandmarkErrors& errors) {
+  ErrorNumbers numbers{};
+  for (double& number : numbers) number = reader.get<double>();
+  errors = std::bit_cast<LandmarkErrors>(numbers);
+}
+
+void put(const LandmarkInformation& information, ByteWriter& writer) {
   put_matrix(information.pixels, writer);
   put_matrix(information.disparities, writer);
-  for (const double* field : fields_of(information)) writer.put(*field);
-  writer.put(information.observations);
+  put(information.errors, writer);
 }
 
 void get(BinaryReader& reader, LandmarkInformation& information) {
   get_matrix(reader, information.pixels);
   get_matrix(reader, information.disparities);
-  for (double* field : fields_of(information)) *field = reader.get<double>();
-  information.observations = reader.get<std::int32_t>();
+  get(reader, information.errors);
 }
 
 void put(const SurveyLandmark& landmark, ByteWriter& writer) {
@@ -249,20 +251,6 @@ VarianceModel::Sums get_sums(BinaryReader& reader) {
   return sums;
 }
 
-using NoiseSample = LandmarkNoiseModel::Sample;
-
-using SampleNumbers = std::array<double, sizeof(NoiseSample) / sizeof(double)>;
-
-void put(NoiseSample sample, ByteWriter& writer) {
-  for (const double number : std::bit_cast<SampleNumbers>(sample)) writer.put(number);
-}
-
-void get(BinaryReader& reader, NoiseSample& sample) {
-  SampleNumbers numbers{};
-  for (double& number : numbers) number = reader.get<double>();
-  sample = std::bit_cast<NoiseSample>(numbers);
-}
-
 /// Returns the numbers of the noise, in the order in which they are stored.
 std::array<double*, 9> fields_of(LandmarkNoise& noise) {
   return {&noise.pixel_scale, &noise.disparity_scale, &noise.own.freedom,
@@ -278,7 +266,7 @@ void put(const LandmarkNoiseModel& model, ByteWriter& writer) {
 }
 
 LandmarkNoiseModel get_noise(BinaryReader& reader) {
-  std::vector<NoiseSample> samples;
+  std::vector<LandmarkErrors> samples;
   get(reader, samples);
   const auto count = reader.get<std::int64_t>();
   LandmarkNoise noise;

@@ -97,9 +97,9 @@ class PoseErrors : public testing::Test {
     landmark_.redundancy = 15;
     landmark_.squared_error_sum = 20;
     landmark_.information.pixels = Eigen::Vector3d(1, 0.5, 0.25).asDiagonal();
-    landmark_.information.pixel_errors = 20;
-    landmark_.information.pixel_redundancy = 15;
-    landmark_.information.observations = 6;
+    landmark_.information.errors.pixel_errors = 20;
+    landmark_.information.errors.pixel_redundancy = 15;
+    landmark_.information.errors.observations = 6;
   }
   void be_uncertain(int first, int last) {
     for (int i = first; i <= last; ++i)

@@ -177,7 +177,7 @@ class StreetMapper {
       variance_.add(landmark.squared_error_sum, landmark.redundancy);
     for (SurveyLandmark& landmark : adjusted.landmarks) {
       complete_covariance(frames_, {variance_.prior(), noise_.noise()}, true, landmark);
-      noise_.add(landmark.information);
+      noise_.add(landmark.information.errors);
       if (!failed_rule(landmark.indicators, landmark.own_covariance(), options_.cleaning))
         landmarks_.push_back(std::move(landmark));
     }

@@ -183,7 +183,7 @@ std::vector<SurveyLandmark> Surveyor::clean(std::vector<SurveyLandmark>&& landma
       ++state_.counts.cleaned[static_cast<std::size_t>(*rule)];
       continue;
     }
-    state_.noise.add(landmark.information);
+    state_.noise.add(landmark.information.errors);
     kept.push_back(std::move(landmark));
   }
   return kept;
