@@ -4,9 +4,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "cairn/core/median.h"
+#include "cairn/optimize/variance_components.h"
 
 namespace cairn {
 namespace {
@@ -105,17 +107,17 @@ double first_sigma(const std::vector<Residual>& residuals) {
   return std::max(kLeastSigmaPx, kSigmaPerMedian * std::sqrt(median(std::move(squares))));
 }
 
-/// Returns one step of the iteration for both variances.
-Eigen::Array2d improved(const Eigen::Array2d& variances, const std::vector<Residual>& residuals) {
-  Eigen::Array2d found = Eigen::Array2d::Zero(), expected = Eigen::Array2d::Zero();
-  for (const Residual& residual : residuals) {
-    const Eigen::Array2d parts(1, residual.by_depth);
-    const double variance = (variances * parts).sum();
-    const double square = std::min(residual.square, kCut * kCut * variance) / kCutSquares;
-    found += square / (variance * variance) * parts;
-    expected += parts / variance;
+/// Returns the components of the residuals' variance: in disparity, and in depth.
+VarianceComponents components_of(const std::vector<Residual>& residuals) {
+  VarianceComponents components(static_cast<Eigen::Index>(residuals.size()), 2);
+  components.cut = kCut * kCut;
+  components.kept = kCutSquares;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    components.parts(row, 1) = residuals[i].by_depth;
+    components.squares[row] = residuals[i].square;
   }
-  return variances * (found / expected).sqrt();
+  return components;
 }
 
 DisparityNoise fit(const std::vector<Residual>& residuals) {
@@ -126,9 +128,11 @@ DisparityNoise fit(const std::vector<Residual>& residuals) {
   Eigen::Array2d variances(0.5 * first * first, 0.5 * first * first / mean_by_depth);
   const Eigen::Array2d least(kLeastSigmaPx * kLeastSigmaPx, kLeastSigmaM * kLeastSigmaM);
   constexpr int kMaxIterations = 100;
-  constexpr double kConverged = 1e-3;  // relative
+  constexpr double kConverged = 1e-3;                                    // relative
+  constexpr double kLeastVariance = std::numeric_limits<double>::min();  // none is as small
+  const VarianceComponents components = components_of(residuals);
   for (int i = 0; i < kMaxIterations; ++i) {
-    const Eigen::Array2d next = improved(variances, residuals).max(least);
+    const Eigen::Array2d next = components.improved(variances, kLeastVariance).max(least);
     const double change = ((next - variances).abs() / variances).maxCoeff();
     variances = next;
     if (change < kConverged) break;

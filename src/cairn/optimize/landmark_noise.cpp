@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cairn/geometry/covariance.h"
+#include "cairn/optimize/variance_components.h"
 
 namespace cairn {
 namespace {
@@ -91,41 +92,22 @@ double typical(const std::vector<LandmarkErrors>& samples, double LandmarkErrors
   return count > 0 ? std::exp(sum / count) : 1;
 }
 
-/// Estimates variance components: rows of `parts` times them, plus `known`, are the variances of errors whose
-/// squares are `squares`, each counting as `weights` of them. Squares are cut off at `cut` variances, and
-/// what remains is divided by its share `kept` of the normal distribution.
-struct ComponentProblem {
-  Eigen::ArrayXXd parts;
-  ArrayXd known, squares, weights;
-  double cut = 1, kept = 1;
-
-  [[nodiscard]] ArrayXd solve() const {
-    constexpr int kMaxIterations = 200;
-    constexpr double kConverged = 1e-4, kTiny = 1e-12;  // relative
-    const double mean = (weights * squares).sum() / weights.sum();
-    ArrayXd components =
-        mean / (static_cast<double>(parts.cols()) * (parts.colwise().mean().transpose() + kTiny));
-    for (int i = 0; i < kMaxIterations; ++i) {
-      const ArrayXd next = components * improvement(components, mean).max(kTiny);
-      const double change = (next - components).abs().maxCoeff() / (components.maxCoeff() + kTiny);
-      components = next;
-      if (change < kConverged) break;
-    }
-    return components;
+/// Solves for the components, from a start in which all have the same share.
+ArrayXd solve(const VarianceComponents& problem) {
+  constexpr int kMaxIterations = 200;
+  constexpr double kConverged = 1e-4, kTiny = 1e-12;  // relative
+  constexpr double kLeast = 1e-9;                     // of the mean square, so that nothing is divided by 0
+  const double mean = (problem.weights * problem.squares).sum() / problem.weights.sum();
+  const auto count = static_cast<double>(problem.parts.cols());
+  ArrayXd components = mean / (count * (problem.parts.colwise().mean().transpose() + kTiny));
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const ArrayXd next = problem.improved(components, kLeast * mean).max(kTiny * components);
+    const double change = (next - components).abs().maxCoeff() / (components.maxCoeff() + kTiny);
+    components = next;
+    if (change < kConverged) break;
   }
-
- private:
-  /// Returns by what one step of the iteration multiplies the components.
-  [[nodiscard]] ArrayXd improvement(const ArrayXd& components, double mean) const {
-    constexpr double kLeast = 1e-9;  // of the mean square, so that nothing is divided by 0
-    const ArrayXd variances = ((parts.matrix() * components.matrix()).array() + known).max(kLeast * mean);
-    const ArrayXd found = squares.min(cut * variances) / kept;
-    const ArrayXd by_found = weights * found / variances.square(), by_model = weights / variances;
-    const ArrayXd above = (parts.colwise() * by_found).colwise().sum().transpose();
-    const ArrayXd below = (parts.colwise() * by_model).colwise().sum().transpose();
-    return (below > 0).select((above / below.max(1e-300)).sqrt(), ArrayXd::Zero(components.size()));
-  }
-};
+  return components;
+}
 
 /// Estimates the noise of the samples.
 class NoiseFit {
@@ -164,7 +146,7 @@ class NoiseFit {
     const auto used =
         select([&](const LandmarkErrors& sample) { return sample.*redundancy > kLeastRedundancy; });
     if (static_cast<std::int64_t>(used.size()) < kFewest) return {};
-    ComponentProblem problem = problem_of(used, parts);
+    VarianceComponents problem(static_cast<Eigen::Index>(used.size()), parts);
     problem.cut = 6;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const LandmarkErrors& sample = samples_[used[i]];
@@ -173,13 +155,13 @@ class NoiseFit {
       problem.squares[row] = sample.*errors / (sample.*redundancy);
       problem.weights[row] = sample.*redundancy;
     }
-    return problem.solve();
+    return solve(problem);
   }
 
   void fit_disagreement() {
     const auto used = select([](const LandmarkErrors& sample) { return sample.disagreement > 0; });
     if (static_cast<std::int64_t>(used.size()) < kFewest) return;
-    ComponentProblem problem = problem_of(used, 2);
+    VarianceComponents problem(static_cast<Eigen::Index>(used.size()), 2);
     problem.cut = 2.25;     // 1.5 standard deviations
     problem.kept = 0.7785;  // mean of min(x^2, 2.25) of a standard normal x
     for (std::size_t i = 0; i < used.size(); ++i) {
@@ -193,7 +175,7 @@ class NoiseFit {
                                              sample.disagreement_by_disparities;
       problem.squares[row] = unit * sample.disagreement;
     }
-    const ArrayXd found = problem.solve();
+    const ArrayXd found = solve(problem);
     noise_.pixels[1] = found[0];
     noise_.pixels[2] = found[1];
   }
@@ -204,15 +186,6 @@ class NoiseFit {
     for (std::size_t i = 0; i < samples_.size(); ++i)
       if (condition(samples_[i])) selected.push_back(i);
     return selected;
-  }
-  [[nodiscard]] static ComponentProblem problem_of(const std::vector<std::size_t>& used, Eigen::Index parts) {
-    const auto count = static_cast<Eigen::Index>(used.size());
-    ComponentProblem problem;
-    problem.parts = Eigen::ArrayXXd::Ones(count, parts);
-    problem.known = ArrayXd::Zero(count);
-    problem.squares = ArrayXd::Zero(count);
-    problem.weights = ArrayXd::Ones(count);
-    return problem;
   }
 
   const std::vector<LandmarkErrors>& samples_;
