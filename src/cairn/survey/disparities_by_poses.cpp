@@ -42,13 +42,10 @@ class Stretch {
     frames_.push_back(std::move(frame));
   }
 
-  /// Appends the cameras, all fixed, and the tracks that are long enough.
+  /// Appends the cameras and the tracks that are long enough.
   void append_to(BundleProblem& problem) const {
     const auto first_camera = static_cast<std::int32_t>(problem.camera_from_world.size());
-    for (const SurveyFrame& frame : frames_.all()) {
-      problem.camera_from_world.push_back(frame.camera_from_world);
-      problem.camera_fixed.push_back(1);
-    }
+    for (const SurveyFrame& frame : frames_.all()) append_camera(frame, problem);
     for (const Track& track : tracks_) {
       if (track.observations.size() < kFewestInTrack) continue;
       const auto point = static_cast<std::int32_t>(problem.points_in_world.size());
@@ -60,6 +57,21 @@ class Stretch {
   }
 
  private:
+  /// Appends a camera: fixed if its given pose states no deviations, else free within these.
+  static void append_camera(const SurveyFrame& frame, BundleProblem& problem) {
+    const bool is_fixed = !frame.given.uncertainty;
+    if (!is_fixed) {
+      // Deviations that are zero, or not stated, count as 1e-6 radians and 1e-5 metres.
+      const Vector6d least = (Vector6d() << 1e-12, 1e-12, 1e-12, 1e-10, 1e-10, 1e-10).finished();
+      const Matrix6d covariance = stated_covariance(frame.given) + Matrix6d(least.asDiagonal());
+      const Matrix6d information = covariance.inverse();
+      problem.priors.push_back({static_cast<std::int32_t>(problem.camera_from_world.size()),
+                                frame.camera_from_world, 0.5 * (information + information.transpose())});
+    }
+    problem.camera_from_world.push_back(frame.camera_from_world);
+    problem.camera_fixed.push_back(is_fixed ? 1 : 0);
+  }
+
   const Rig& rig_;
   const SurveyOptions& options_;
   FrameBuffer frames_;

@@ -29,11 +29,24 @@ class CalibrateByPoses : public testing::Test {
     const Sequence sequence = open_sequence(folder);
     GivenPoses poses = read_given_poses(sequence);
     if (without_poses_) poses.frames.assign(poses.frames.size(), std::nullopt);
+    for (auto& pose : poses.frames)
+      if (pose) err(*pose);
     return calibrate_by_poses(sequence, poses, options, executor);
+  }
+
+  /// Makes a pose wrong as all others are: by a scale of the path.
+  void err(GivenPose& pose) const {
+    pose.world_from_camera.translation *= path_scale_;
+    if (stated_std_m_ == 0) return;
+    pose.uncertainty.emplace();
+    pose.uncertainty->position = stated_std_m_ * stated_std_m_ * Eigen::Matrix3d::Identity();
+    pose.uncertainty->rotation = 1e-6 * Eigen::Matrix3d::Identity();
   }
 
   static constexpr int kFrames = 24;
   bool without_poses_ = false;
+  double path_scale_ = 1;    // given over true
+  double stated_std_m_ = 0;  // of the given centres; 0: not stated
   const testkit::TemporaryFolder scratch_;
 };
 
@@ -67,6 +80,23 @@ TEST_F(CalibrateByPoses, applies_nothing_that_is_only_to_be_reported) {
 TEST_F(CalibrateByPoses, does_nothing_without_poses) {
   without_poses_ = true;
   EXPECT_EQ(calibrate(0.1).estimates, 0);
+}
+
+TEST_F(CalibrateByPoses, takes_nothing_for_a_field_that_the_poses_say_may_be_theirs) {
+  path_scale_ = 1.05;
+  const DisparityCalibration held = calibrate(0);
+  EXPECT_GT(held.rms_px, 0.3);  // poses that state no deviations are exact
+  stated_std_m_ = 1;
+  const DisparityCalibration free = calibrate(0);
+  EXPECT_LT(free.rms_px, 0.3 * held.rms_px);
+  EXPECT_FALSE(free.applied);
+}
+
+TEST_F(CalibrateByPoses, finds_what_a_turned_camera_adds_by_poses_with_small_deviations) {
+  stated_std_m_ = 0.01;
+  const DisparityCalibration found = calibrate(0.1);
+  EXPECT_TRUE(found.applied);
+  EXPECT_NEAR(found.field[0], 240 * 0.1 * std::numbers::pi / 180, 0.06);
 }
 
 TEST_F(CalibrateByPoses, gives_the_same_bits_at_any_number_of_threads) {

@@ -18,6 +18,18 @@ SurveyFrame make_frame(KeyframeId id, ObservedFrame observed, const GivenPose& g
   return frame;
 }
 
+Matrix6d stated_covariance(const GivenPose& given) {
+  Matrix6d covariance = Matrix6d::Zero();
+  if (!given.uncertainty) return covariance;
+  const PoseUncertainty& stated = *given.uncertainty;
+  covariance << stated.rotation, stated.position_rotation.transpose(), stated.position_rotation,
+      stated.position;
+  Matrix6d camera_from_world = Matrix6d::Zero();
+  camera_from_world.topLeftCorner<3, 3>() = camera_from_world.bottomRightCorner<3, 3>() =
+      given.world_from_camera.matrix3().transpose();
+  return camera_from_world * covariance * camera_from_world.transpose();
+}
+
 void FrameBuffer::push_back(SurveyFrame&& frame) {
   require(frames_.empty() || frame.id.value == frames_.back().id.value + 1, "frames come in their order");
   frames_.push_back(std::move(frame));

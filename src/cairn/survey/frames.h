@@ -48,6 +48,10 @@ struct SurveyFrame {
 [[nodiscard]] SurveyFrame make_frame(KeyframeId id, ObservedFrame observed, const GivenPose& given,
                                      double sigma_px);
 
+/// Returns the covariance that a given pose states, of left_perturbation(camera_from_world as given, as it
+/// is): rotation (radians), then centre (metres), in the camera's axes. Zero for what it does not state.
+[[nodiscard]] Matrix6d stated_covariance(const GivenPose& given);
+
 /// Holds the last frames, which have successive numbers.
 class FrameBuffer {
  public:

@@ -16,18 +16,6 @@ std::vector<CameraObservation> kept(std::span<const CameraObservation> observati
   return result;
 }
 
-/// Returns the variances of a given pose as those of the left perturbation of camera_from_world.
-Vector6d stated_variances(const GivenPose& given) {
-  if (!given.uncertainty) return Vector6d::Zero();
-  const Eigen::Matrix3d camera_from_world = given.world_from_camera.matrix3().transpose();
-  const auto turned = [&](const Eigen::Matrix3d& covariance) -> Eigen::Vector3d {
-    return (camera_from_world * covariance * camera_from_world.transpose()).diagonal();
-  };
-  Vector6d variances;
-  variances << turned(given.uncertainty->rotation), turned(given.uncertainty->position);
-  return variances.cwiseMax(0.0);
-}
-
 }  // namespace
 
 bool is_held_out(KeyframeId frame) {
@@ -76,7 +64,7 @@ std::optional<HeldOutFrame> locate_held_out(const Rig& rig, const SurveyFrame& f
   result.to_map = left_perturbation(pose.camera_from_world, frame.camera_from_world);
   result.to_given = left_perturbation(pose.camera_from_world, frame.given.world_from_camera.inverse());
   result.formal = pose.variance_factor * pose.covariance.diagonal().cwiseMax(0.0);
-  result.stated = stated_variances(frame.given);
+  result.stated = stated_covariance(frame.given).diagonal().cwiseMax(0.0);
   return result;
 }
 
