@@ -27,8 +27,10 @@ CommonError mean_error(std::span<const HeldOutFrame> frames) {
   }
   const auto count = static_cast<double>(frames.size());
   const double tails = 1 + 2 / count;
-  return {tails * (to_map - formal).cwiseMax(0.0) / count,
-          (tails * (to_given - formal).cwiseMax(0.0) + stated) / count};
+  const Vector6d map_error = tails * (to_map - formal).cwiseMax(0.0) / count,
+                 given_error = tails * (to_given - formal).cwiseMax(0.0) / count;
+  // What the map was moved away from the given poses by is their error or its own, not both.
+  return {map_error, map_error + (given_error - map_error).cwiseMax(stated / count)};
 }
 
 /// Returns the frames with each error cut at three standard deviations, as the median has these: a few places

@@ -47,11 +47,18 @@ TEST(CommonErrors, are_of_the_place) {
   EXPECT_GT(errors.near({280})->to_map.mean(), 1.5 * errors.near({20})->to_map.mean());
 }
 
-TEST(CommonErrors, add_what_given_poses_state) {
+TEST(CommonErrors, have_what_given_poses_state) {
   auto frames = frames_with(0.01, 20);
-  const Vector6d without = CommonErrors(frames).near({20})->to_world;
   for (HeldOutFrame& frame : frames) frame.stated.setConstant(0.5);
-  EXPECT_NEAR((CommonErrors(frames).near({20})->to_world - without).mean(), 0.5, 1e-12);
+  const auto error = CommonErrors(frames).near({20});
+  EXPECT_NEAR((error->to_world - error->to_map).mean(), 0.5, 1e-12);
+}
+
+TEST(CommonErrors, count_once_what_the_map_was_moved_by) {
+  auto frames = frames_with(0.1, 20);
+  const Vector6d unstated = CommonErrors(frames).near({20})->to_world;
+  for (HeldOutFrame& frame : frames) frame.stated.setConstant(1e-4);  // less than it was moved by
+  EXPECT_LT((CommonErrors(frames).near({20})->to_world - unstated).norm(), 1e-12);
 }
 
 TEST(CommonErrors, are_not_known_from_two_frames) {

@@ -24,7 +24,11 @@ class MotionDifferences {
   [[nodiscard]] Vector6d variances() const {
     return (squares_ - sum_.cwiseAbs2() / count_) / std::max(1, count_ - 1);
   }
-  /// Returns the part of these that the noise of pixels explains.
+  /// Returns the squared mean beyond what a mean of so many that scatter, and of no mean, has by chance.
+  [[nodiscard]] Vector6d squared_mean() const {
+    return ((sum_ / count_).cwiseAbs2() - 2 * variances() / count_).cwiseMax(0.0);
+  }
+  /// Returns the part of the variances that the noise of pixels explains.
   [[nodiscard]] Vector6d formal_variances() const { return formal_ / count_; }
 
  private:
@@ -139,6 +143,39 @@ std::optional<VisualMotion> measure_motion(const Rig& rig, const FrameBuffer& fr
                       covariance.bottomRightCorner<3, 3>().trace() / 3};
 }
 
+namespace {
+
+/// Returns the mean of the variances that the given poses of frames `first` to `last` state; zero for what
+/// they do not state.
+Vector6d stated_variances(const FrameBuffer& frames, KeyframeId first, KeyframeId last) {
+  Vector6d sum = Vector6d::Zero();
+  for (KeyframeId id = first; id <= last; ++id.value)
+    sum += stated_covariance(frames[id].given).diagonal().cwiseMax(0.0);
+  return sum / (last.value - first.value + 1);
+}
+
+/// Returns the variances of given poses with which the adjusted ones follow an error that wanders, of
+/// variance `wander`, as slowly as they may: zero where none does. Poses of variance g, with motions that
+/// drift by q a frame, draw by k = sqrt(q / g) a frame (a Kalman filter's gain). If all the drift is of the
+/// images, that leaves an error of variance q / (2 k); if these show a motion that is wrong in each frame, by
+/// a variance `steady`, one of steady / k^2; neither may be more than `wander`. Tracks tie a frame to many
+/// before it, about four times as strongly as the motion between neighbours does, so that the gain is four
+/// times what it would be. All `frames` together weigh at least as one pose. A centre that is drawn along one
+/// axis moves along others and turns the camera, so that the largest gain of the centre holds for all axes.
+Vector6d variances_of_wander(const Vector6d& wander, const Vector6d& steady, int frames,
+                             const Vector6d& motion) {
+  constexpr double kTied = 4;
+  Vector6d gain = Vector6d::Zero();
+  for (Eigen::Index i = 0; i < 6; ++i)
+    if (wander[i] > 0)
+      gain[i] = std::max({kTied * motion[i] / wander[i], 2 * kTied * std::sqrt(steady[i] / wander[i]),
+                          std::sqrt(motion[i] / (frames * wander[i]))});
+  gain = gain.cwiseMax(gain.tail<3>().maxCoeff());
+  return (wander.array() > 0 && gain.array() > 0).select(motion.cwiseQuotient(gain.cwiseAbs2()), 0);
+}
+
+}  // namespace
+
 PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId last) {
   constexpr int kLag = 8;                // frames: what drifts has come further than jitter
   constexpr double kLeastJitter = 0.25;  // share of what neighbours differ by, as all are estimates
@@ -155,6 +192,9 @@ PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId 
   }
   const Vector6d jitter = (near.variances() - noise.formal) / 2;
   noise.given = ((near.variances() - noise.motion) / 2).cwiseMax(kLeastJitter * jitter).cwiseMax(0.0);
+  const Vector6d wander = (stated_variances(frames, first, last) - noise.given).cwiseMax(0.0);
+  const int count = last.value - first.value + 1;
+  noise.given = noise.given.cwiseMax(variances_of_wander(wander, near.squared_mean(), count, noise.motion));
   return noise;
 }
 

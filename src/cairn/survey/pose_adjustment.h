@@ -27,7 +27,7 @@ namespace cairn {
 /// Holds the variances of poses and motions: of the rotation (radians squared) and the centre (square metres)
 /// about and along the camera's axes.
 struct PoseNoise {
-  Vector6d given = Vector6d::Zero();   ///< of each given pose: how it jitters, from one frame to the next
+  Vector6d given = Vector6d::Zero();   ///< of each given pose: how it jitters from frame to frame, or more
   Vector6d motion = Vector6d::Zero();  ///< of what the images show of the motion between neighbouring frames
   Vector6d formal = Vector6d::Zero();  ///< of the same, as the noise of pixels alone has it
 };
@@ -35,7 +35,10 @@ struct PoseNoise {
 /// Measures the noise of frames `first` to `last` by what given and seen motions differ by. With given poses
 /// of variance s^2 and seen motions that drift by q a frame, motions over k frames differ by 2 s^2 + k q in
 /// the mean square. What they differ by in the mean, frame after frame, is neither: it is a fault of the
-/// calibration. Zero if fewer than two motions were measured.
+/// calibration. Zero if fewer than two motions were measured. Where given poses state larger deviations than
+/// they jitter by, the rest is an error that wanders, and `given` is as much larger as lets the poses follow
+/// it slowly: how the camera moved from frame to frame is then what the images show, and where it was on the
+/// whole what the given poses say.
 [[nodiscard]] PoseNoise measure_noise(const FrameBuffer& frames, KeyframeId first, KeyframeId last);
 
 /// Computes by how many standard deviations, as `given` states them, `adjusted` differs from it: along the

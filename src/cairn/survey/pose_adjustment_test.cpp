@@ -93,6 +93,36 @@ class Drive {
       largest = std::max(largest, distance(frame.world_from_camera, frame.given.world_from_camera));
     return largest;
   }
+  /// Returns the root mean square of what steps from frame to frame differ by from true ones, metres.
+  [[nodiscard]] double error_of_steps() const {
+    double squares = 0;
+    for (int i = 1; i < kFrames; ++i) {
+      const Rigid3 step = frames_[KeyframeId{i}].world_from_camera.inverse() *
+                          Rigid3(frames_[KeyframeId{i - 1}].world_from_camera);
+      squares += std::pow(distance(step, testkit::on_bend(i).inverse() * Rigid3(testkit::on_bend(i - 1))), 2);
+    }
+    return std::sqrt(squares / (kFrames - 1));
+  }
+  /// Lets the errors of the given centres wander, by `step_m` per axis from frame to frame.
+  void let_wander(double step_m) {
+    Random random(6);
+    Eigen::Vector3d error = Eigen::Vector3d::Zero();
+    for (int i = 0; i < kFrames; ++i) {
+      SurveyFrame& frame = frames_[KeyframeId{i}];
+      for (Eigen::Index axis = 0; axis < 3; ++axis) error[axis] += step_m * random.normal();
+      const Rigid3& pose = frame.given.world_from_camera;
+      give(frame, WorldFromCamera(Rigid3{pose.rotation, pose.translation + error}));
+    }
+  }
+  /// Lets all given poses state these deviations per axis.
+  void state(double metres, double radians) {
+    for (int i = 0; i < kFrames; ++i) {
+      GivenPose& given = frames_[KeyframeId{i}].given;
+      given.uncertainty.emplace();
+      given.uncertainty->position = metres * metres * Eigen::Matrix3d::Identity();
+      given.uncertainty->rotation = radians * radians * Eigen::Matrix3d::Identity();
+    }
+  }
   FrameBuffer& frames() { return frames_; }
   std::vector<Track>& tracks() { return tracks_; }
 
@@ -134,6 +164,28 @@ TEST(AdjustPoses, motions_that_are_all_too_short_do_not_move_exact_poses) {
   wide.baseline *= 0.9;  // all that the images show is nearer
   drive.adjust({0}, 1, wide);
   EXPECT_LT(drive.largest_move(), 0.01);
+}
+
+TEST(AdjustPoses, takes_the_way_of_the_images_where_poses_may_wander) {
+  Drive unstated(0, 0), stated(0, 0);
+  for (Drive* drive : {&unstated, &stated}) drive->let_wander(0.01);
+  const double given = stated.error_of_steps();
+  stated.state(0.2, 1e-3);
+  for (Drive* drive : {&unstated, &stated}) drive->adjust();
+  EXPECT_LT(stated.error_of_steps(), given / 2);
+  EXPECT_LT(stated.error_of_steps(), 0.75 * unstated.error_of_steps());
+  EXPECT_LT(stated.largest_move(), 0.1);
+  EXPECT_LT(stated.errors().adjusted_rad, 5e-4);
+}
+
+TEST(AdjustPoses, motions_that_are_all_too_short_move_poses_by_less_than_these_state) {
+  Drive drive(0, 0, 0.98);
+  drive.state(0.05, 1e-3);
+  Rig wide = kDriveRig;
+  wide.baseline *= 0.98;
+  drive.adjust({0}, 1, wide);
+  EXPECT_LT(drive.largest_move(), 0.06);
+  EXPECT_LT(drive.errors().adjusted_rad, 5e-4);
 }
 
 TEST(AdjustPoses, wrong_observations_do_not_count) {
@@ -201,6 +253,18 @@ TEST(MeasureNoise, tells_jitter_of_poses_from_drift_of_motions) {
   }
   EXPECT_GT(of_motions.motion.tail<3>().sum(), of_poses.motion.tail<3>().sum());
   EXPECT_LT(of_motions.given.tail<3>().sum(), of_poses.given.tail<3>().sum());
+}
+
+TEST(MeasureNoise, takes_stated_deviations_for_jitter_as_far_as_poses_jitter) {
+  Drive jitter(0.04, 5e-4), wander(0, 0);
+  wander.let_wander(0.01);
+  const auto noise_of = [](Drive& drive) { return measure_noise(drive.frames(), {0}, {kFrames - 1}); };
+  const PoseNoise unstated = noise_of(jitter);
+  jitter.state(0.01, 1e-4);
+  EXPECT_EQ(noise_of(jitter).given, unstated.given);
+  const double before = noise_of(wander).given[5];
+  wander.state(0.5, 1e-2);
+  EXPECT_GT(noise_of(wander).given[5], 10 * before);
 }
 
 TEST(MoveInSigmas, counts_in_the_direction_of_the_move) {
