@@ -44,6 +44,7 @@ void declare(CommandLine& app, AlignArguments& arguments) {
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, where REF is a sequence without calibration")
       .type_name("FILE|NAME");
   app.add_option("--plot", arguments.plot, "picture of both trajectories before and after")
+      .check(FileEnding{".svg"})
       .type_name("OUT.svg");
   add_common_options(app, arguments.common, {.quiet = false});
   app.footer(

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "cairn/core/text.h"
@@ -106,6 +107,15 @@ Option& Option::check(const NumberRange& range) {
 Option& Option::check(const Choices& choices) {
   option_->check(choices.ignores_case ? CLI::IsMember(choices.names, CLI::ignore_case)
                                       : CLI::IsMember(choices.names));
+  return *this;
+}
+
+Option& Option::check(const FileEnding& ending) {
+  const auto complain = [ending](const std::string& text) -> std::string {
+    const std::string found = CLI::detail::to_lower(std::filesystem::path(text).extension().string());
+    return found == ending.ending ? "" : fmt::format("'{}' does not end in {}", text, ending.ending);
+  };
+  option_->check(CLI::Validator(complain, ""));
   return *this;
 }
 

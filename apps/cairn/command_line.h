@@ -28,6 +28,11 @@ struct Choices {
   bool ignores_case = false;
 };
 
+/// The ending of the file names that an option accepts, with its point, in small letters or capitals.
+struct FileEnding {
+  std::string ending;
+};
+
 [[nodiscard]] NumberRange number_in(double low, double high);
 [[nodiscard]] NumberRange number_in_or(double low, double high, std::string word);
 [[nodiscard]] Choices one_of(std::vector<std::string> names);
@@ -42,6 +47,7 @@ class Option {
   Option& required();
   Option& check(const NumberRange& range);
   Option& check(const Choices& choices);
+  Option& check(const FileEnding& ending);
   /// Shows this name for the value in --help.
   Option& type_name(const std::string& name);
   /// Shows the variable's value as the default in --help.

@@ -85,6 +85,7 @@ void declare_rpe(CommandLine& app, EvaluateArguments& arguments) {
 void declare_coverage(CommandLine& app, EvaluateArguments& arguments) {
   app.add_option("--plot-coverage", arguments.plot_coverage,
                  "picture of stated covariances: expected against observed shares of errors inside")
+      .check(FileEnding{".svg"})
       .type_name("OUT.svg");
   app.add_flag("--landmarks", arguments.landmarks,
                "EST is a map, REF its simulated sequence (--depth-truth): the landmarks' distances from the "
@@ -111,6 +112,7 @@ void declare(CommandLine& app, EvaluateArguments& arguments) {
       .type_name("FILE|NAME");
   app.add_option("--plot", arguments.plot,
                  "picture of the trajectories from three sides and of errors over time")
+      .check(FileEnding{".svg"})
       .type_name("OUT.svg");
   declare_coverage(app, arguments);
   add_common_options(app, arguments.common, {.quiet = false});

@@ -158,6 +158,12 @@ void print_report(const Arguments& arguments, const SimulationReport& report, co
   fmt::print("{}", arguments.common.json ? format_simulation_json(summary) : format_simulation_text(summary));
 }
 
+/// Returns the command that a user would run next: with poses that err, a map of these.
+std::string next_command(const PoseErrorOptions& error, const std::string& folder, const std::string& given,
+                         const std::string& otherwise) {
+  return error.is_any() ? fmt::format("cairn map {0} --poses {0}/{1} -o map", folder, given) : otherwise;
+}
+
 void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
   options.seed = arguments.common.seed;
   options.camera = resized(options.camera, arguments.scale);
@@ -171,7 +177,9 @@ void simulate_room(const Arguments& arguments, SimulateRoomOptions options) {
       write_tum(SimulatedRoom(options, executor), output.work(), executor, *progress, arguments.depth_truth);
   output.commit();
   const std::string folder = output.target().string();
-  print_report(arguments, report, folder, fmt::format("cairn slam {} -o run", folder));
+  print_report(arguments, report, folder,
+               next_command(options.pose_error, folder, "given_poses.txt",
+                            fmt::format("cairn slam {} -o run", folder)));
 }
 
 Eigen::Vector3d vector_of(const std::array<double, 3>& values) {
@@ -205,7 +213,9 @@ void simulate_street(const Arguments& arguments, SimulateStreetOptions options) 
                                               arguments.depth_truth, executor, *progress);
   output.commit();
   const std::string folder = output.target().string();
-  print_report(arguments, report, folder, fmt::format("cairn info {}", folder));
+  const std::string given = options.body_poses ? "given_body_poses.csv" : "given_poses.txt";
+  print_report(arguments, report, folder,
+               next_command(options.pose_error, folder, given, fmt::format("cairn info {}", folder)));
 }
 
 }  // namespace

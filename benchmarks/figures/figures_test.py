@@ -113,6 +113,14 @@ class Rendering(Sample):
         self.assertEqual(self.complaints(), [])
 
 
+    def test_a_range_whose_ends_look_the_same_is_one_number(self):
+        self.set_texts("{slam.kitti.ate_m.low:.0f} to {slam.kitti.ate_m.high:.0f} m, {slam.kitti.ate_m.low:.2f} to {slam.kitti.ate_m.high:.2f} m.\n",
+                       "<!-- figures: slam -->\n<!-- end -->\n")
+        self.documents().mend()
+        self.assertIn("\n0 m, 0.24 to 0.26 m.\n", (self.root / "README.md").read_text())
+        self.assertEqual(self.complaints(), [])
+
+
 class Complaints(Sample):
     def test_a_figure_that_was_changed_by_hand(self):
         self.documents().mend()

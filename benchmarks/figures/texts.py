@@ -18,6 +18,7 @@ PLACE = re.compile(r"\{([^{}]+)\}")
 NAME = re.compile(r"(?P<name>[a-z][\w.]*?)(?:\.(?P<end>low|high))?(?::(?P<layout>[^{}]+))?")
 # Blocks of others, code: numbers in there are none of ours.
 FOREIGN = re.compile(r"^<!-- parameters.*?^<!-- end -->$|^```.*?^```$", re.DOTALL | re.MULTILINE)
+SAME_ENDS = re.compile(r"(?<![\d.,])(\d[\d.,]*) to \1(?![\d.,]*\d)")  # of a range, as shown: one number is enough
 UNITS = "%|°|(?:px|cm|mm|µm|m|s|ms|MB|GB|deg|mrad|times|parts in)\\b"
 QUANTITY = re.compile(rf"(?<![\w.{{=])\d[\d,.]*(?: ?± ?\d[\d.]*)? ?(?:{UNITS})")
 CELL = re.compile(r"(?<=\|) (?P<cell>\d[^|]*?) (?=\|)")
@@ -99,7 +100,7 @@ class Renderer:
                 said = self.commits(template)
                 return said[:1].upper() + said[1:]
             return place[1:] if place.startswith("=") else show(self.number(use := parse_use(place)), use.layout)
-        return PLACE.sub(replace, template)
+        return SAME_ENDS.sub(r"\1", PLACE.sub(replace, template))
 
     def block(self, name, template):
         said = self.commits(template)

@@ -165,6 +165,8 @@ CASES = [
     Case("empty trajectory", "evaluate a.txt b.txt", ("a.txt: expected poses, one a line",), (*POSES, file("a.txt", ""))),
     Case("folder that is no run", "evaluate run b.txt", ("run: expected a trajectory file, or a run's folder",),
          (*POSES, folder("run"))),
+    Case("picture of another format", "evaluate a.txt b.txt --plot a.png", ("--plot", "'a.png' does not end in .svg"), POSES),
+    Case("picture of coverage of another format", "evaluate a.txt b.txt --plot-coverage a", ("--plot-coverage", "'a' does not end in .svg"), POSES),
     Case("picture into a missing folder", "evaluate a.txt b.txt --plot no/a.svg", ("no/a.svg: expected to create the file",), POSES),
     # stated covariances
     Case("covariances of localised poses", "evaluate run ref.txt --align none", given=(found(), TRUTH), code=0,

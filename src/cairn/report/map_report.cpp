@@ -67,7 +67,7 @@ void add_indicators(const MapStatistics& figures, TextBuilder& text) {
   }
   text.add(
       "std_x, std_y, std_z and largest_std know the noise of observations and the stated errors of poses;\n"
-      "errors that landmarks have in common, as of poses that are off, are not in them\n");
+      "errors that landmarks have in common and no pose states, as of a calibration, are not in them\n");
   if (figures.without_covariance > 0)
     text.add("no covariance: {} landmarks, of which no standard deviation is counted\n",
              figures.without_covariance);

@@ -41,7 +41,7 @@ world        camera of the first keyframe
 indicator              min       5 %    median      95 %       max      mean
 rms_px                 0.5       0.5       0.5       0.5       0.5       0.5
 std_x, std_y, std_z and largest_std know the noise of observations and the stated errors of poses;
-errors that landmarks have in common, as of poses that are off, are not in them
+errors that landmarks have in common and no pose states, as of a calibration, are not in them
 )");
 }
 
