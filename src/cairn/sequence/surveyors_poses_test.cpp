@@ -75,19 +75,26 @@ TEST_F(SurveyorsPosesTest, extended_logs_of_novatel_are_read) {
   EXPECT_NE(found.warnings.front().find("18 leap seconds"), std::string::npos);
 }
 
-TEST_F(SurveyorsPosesTest, logs_with_short_headers_are_read) {
+/// INSPVAA and INSPVASA have the height above the ellipsoid. Logs from before a solution are left out.
+TEST_F(SurveyorsPosesTest, logs_without_deviations_are_read) {
   constexpr std::int64_t kEarlierNs = kStampNs - 70'000'000'000;
-  const GivenPoses expected =
-      read("plain.csv",
-           "time_s,latitude,longitude,height,roll,pitch,heading\n1652458694,51.15043713712,-114.03067872932,"
-           "1080.3580,-0.293782412,0.302470613,157.989827209\n",
-           kEarlierNs);
-  const GivenPoses found = read("span.log",
-                                "%INSPVASA,2209,490712.000;2209,490712.000000000,51.15043713712,-114."
-                                "03067872932,1080.3580,0.0014,-0.0007,"
-                                "0.0015,-0.293782412,0.302470613,157.989827209,INS_SOLUTION_GOOD*a87ab88b\n",
-                                kEarlierNs);
-  expect_same(found, expected, 0);
+  const GivenPoses expected = read("plain.csv",
+                                   "time_s,latitude,longitude,height,roll,pitch,heading\n1652458694,51."
+                                   "15043713712,-114.03067872932,1080.3580,"
+                                   "-0.293782412,0.302470613,157.989827209\n",
+                                   kEarlierNs);
+  for (const char* text :
+       {"%INSPVASA,2209,490712.000;2209,490712.000000000,51.15043713712,-114.03067872932,1080.3580,0.0014,-0."
+        "0007,0.0015,-0.293782412,0.302470613,157.989827209,INS_SOLUTION_GOOD*a87ab88b\n",
+        "#INSPVAA,COM1,0,65.5,FINESTEERING,2209,490711.900,02000020,18bc,16809;2209,490711.900000000,51."
+        "15043713712,-114.03067872932,1080.3580,0.0014,-0.0007,0.0015,0.0,0.0,0.0,INS_ALIGNING*506ccd56\n#"
+        "INSPVAA,COM1,0,65.5,FINESTEERING,2209,490712.000,02000020,18bc,16809;2209,490712.000000000,51."
+        "15043713712,-114.03067872932,1080.3580,0.0014,-0.0007,0.0015,-0.293782412,0.302470613,157.989827209,"
+        "INS_SOLUTION_GOOD*6c5c2132\n"}) {
+    const GivenPoses found = read("span.log", text, kEarlierNs);
+    expect_same(found, expected, 0);
+    EXPECT_EQ(found.without_pose, 2U);
+  }
 }
 
 TEST_F(SurveyorsPosesTest, a_damaged_log_is_an_error) {
@@ -95,6 +102,44 @@ TEST_F(SurveyorsPosesTest, a_damaged_log_is_an_error) {
   log.replace(log.find("51.15"), 5, "51.16");
   EXPECT_NE(message_of([&] { return read("span.log", log); }).find("span.log:1: expected the checksum"),
             std::string::npos);
+}
+
+/// Semicolons, tabs, quotes, decimal commas, lines before the names, units in the names, other names.
+TEST_F(SurveyorsPosesTest, tables_of_spreadsheets_and_programs_are_read) {
+  const std::string plain = std::string(kPlainNames) +
+                            "1652458764,51.15043710672,-114.03067871892,1080.3597,-0.308665944,0.297893298,"
+                            "157.960833016,0.19,0.18,0.17,0.0292,0.0291,0.0582\n";
+  const GivenPoses expected = read("plain.csv", plain);
+  for (const char* text :
+       {"Project: street, north\nExported: today\n\n"
+        "GPS Week;Seconds of Week (s);Latitude (deg);Longitude (deg);Altitude (m);Roll (deg);Pitch (deg);"
+        "Azimuth (deg);East Std Dev (m);North Std Dev (m);Up Std Dev (m);Roll Std Dev (deg);"
+        "Pitch Std Dev (deg);Heading Std Dev (deg);East Velocity Std Dev (m/s)\r\n"
+        "2209;490782,0;51,15043710672;-114,03067871892;1080,3597;-0,308665944;0,297893298;157,960833016;"
+        "0,19;0,18;0,17;0,0292;0,0291;0,0582;0,01\r\n",
+        "Week\tTime of Week\tLatitude\tLongitude\tH-Ell\tRoll\tPitch\tYaw\tSD Easting\tSD Northing\t"
+        "SD Height (mm)\tSD Roll\tSD Pitch\tSD Heading\n"
+        "2209\t490782.0\t51.15043710672\t-114.03067871892\t1080.3597\t-0.308665944\t0.297893298\t"
+        "157.960833016\t0.19\t0.18\t170\t0.0292\t0.0291\t0.0582\n",
+        "\"time\",\"lat\",\"lon\",\"elevation (m)\",\"roll\",\"pitch\",\"heading\",\"sde(cm)\",\"sdn(cm)\","
+        "\"sdu(cm)\",\"sigma roll\",\"sigma pitch\",\"sigma heading\"\n"
+        "\"1652458764\",\"51,15043710672\",\"-114,03067871892\",\"1080,3597\",\"-0,308665944\",\"0,"
+        "297893298\","
+        "\"157,960833016\",\"19\",\"18\",\"17\",\"0,0292\",\"0,0291\",\"0,0582\"\n"}) {
+    SCOPED_TRACE(text);
+    expect_same(read("table.csv", text), expected, 0);
+  }
+}
+
+/// In a local world yaw may be counted from x or from y.
+TEST_F(SurveyorsPosesTest, yaw_is_a_heading_on_the_earth_alone) {
+  const std::string row = "1652458764,49,8,100,1,2,3\n";
+  const GivenPoses found = read("t.csv", "time,lat,lon,alt,roll,pitch,yaw\n" + row);
+  expect_same(found, read("p.csv", "time,lat,lon,alt,roll,pitch,heading\n" + row), 0);
+  ASSERT_FALSE(found.warnings.empty());
+  EXPECT_NE(found.warnings.front().find("yaw is taken as the heading"), std::string::npos);
+  const auto local = [&] { return read("t.csv", "time,east,north,up,roll,pitch,yaw\n" + row); };
+  EXPECT_NE(message_of(local).find("'heading' among the columns"), std::string::npos);
 }
 
 std::string sbet_record(double time_s, double heading_deg, double wander_deg) {
