@@ -80,7 +80,10 @@ std::string lower_case(std::string_view text) {
 }
 
 TextFile::TextFile(const std::filesystem::path& path, Separator separator)
-    : path_(path), contents_(read_file(path)) {
+    : TextFile(path, read_file(path), separator) {}
+
+TextFile::TextFile(std::filesystem::path path, std::string contents, Separator separator)
+    : path_(std::move(path)), contents_(std::move(contents)) {
   std::string_view all = contents_;
   if (all.starts_with(kByteOrderMark)) all.remove_prefix(kByteOrderMark.size());
   int number = 0;

@@ -26,6 +26,8 @@ enum class Separator { blanks, commas };
 class TextFile {
  public:
   explicit TextFile(const std::filesystem::path& path, Separator separator = Separator::blanks);
+  /// Takes `contents` as those of the file `path`.
+  TextFile(std::filesystem::path path, std::string contents, Separator separator);
 
   [[nodiscard]] const std::vector<TextLine>& lines() const { return lines_; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

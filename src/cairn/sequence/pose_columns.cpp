@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "cairn/core/text.h"
 
@@ -21,11 +22,12 @@ constexpr std::array<KnownColumn, kTableColumns> kKnown{
      {"north", Quantity::length},     {"up", Quantity::length},         {"roll", Quantity::angle},
      {"pitch", Quantity::angle},      {"heading", Quantity::angle},     {"std_east", Quantity::length},
      {"std_north", Quantity::length}, {"std_up", Quantity::length},     {"std_roll", Quantity::angle},
-     {"std_pitch", Quantity::angle},  {"std_heading", Quantity::angle}, {"x", Quantity::length},
-     {"y", Quantity::length},         {"z", Quantity::length},          {"qx", Quantity::none},
-     {"qy", Quantity::none},          {"qz", Quantity::none},           {"qw", Quantity::none},
-     {"std_x", Quantity::length},     {"std_y", Quantity::length},      {"std_z", Quantity::length},
-     {"std_rx", Quantity::angle},     {"std_ry", Quantity::angle},      {"std_rz", Quantity::angle}}};
+     {"std_pitch", Quantity::angle},  {"std_heading", Quantity::angle}, {"week", Quantity::count},
+     {"x", Quantity::length},         {"y", Quantity::length},          {"z", Quantity::length},
+     {"qx", Quantity::none},          {"qy", Quantity::none},           {"qz", Quantity::none},
+     {"qw", Quantity::none},          {"std_x", Quantity::length},      {"std_y", Quantity::length},
+     {"std_z", Quantity::length},     {"std_rx", Quantity::angle},      {"std_ry", Quantity::angle},
+     {"std_rz", Quantity::angle}}};
 
 struct Synonym {
   std::string_view name;
@@ -33,7 +35,7 @@ struct Synonym {
   double factor = 1;
 };
 
-constexpr std::array<Synonym, 34> kSynonyms{{{"timestamp", TableColumn::time},
+constexpr std::array<Synonym, 51> kSynonyms{{{"timestamp", TableColumn::time},
                                              {"timestamps", TableColumn::time},
                                              {"time_stamp", TableColumn::time},
                                              {"stamp", TableColumn::time},
@@ -66,6 +68,23 @@ constexpr std::array<Synonym, 34> kSynonyms{{{"timestamp", TableColumn::time},
                                              {"std_lat", TableColumn::std_north},
                                              {"std_lon", TableColumn::std_east},
                                              {"std_height", TableColumn::std_up},
+                                             {"gps_week", TableColumn::week},
+                                             {"gpsweek", TableColumn::week},
+                                             {"week_number", TableColumn::week},
+                                             {"gps_week_number", TableColumn::week},
+                                             {"sow", TableColumn::time},
+                                             {"tow", TableColumn::time},
+                                             {"gps_sow", TableColumn::time},
+                                             {"gps_tow", TableColumn::time},
+                                             {"gps_seconds", TableColumn::time},
+                                             {"seconds_of_week", TableColumn::time},
+                                             {"gps_seconds_of_week", TableColumn::time},
+                                             {"time_of_week", TableColumn::time},
+                                             {"h_ell", TableColumn::height},
+                                             {"height_ellipsoidal", TableColumn::height},
+                                             {"sde", TableColumn::std_east},
+                                             {"sdn", TableColumn::std_north},
+                                             {"sdu", TableColumn::std_up},
                                              {"azimuth", TableColumn::heading}}};
 
 struct KnownUnit {
@@ -75,7 +94,7 @@ struct KnownUnit {
   bool is_main = false;  ///< the one that messages name
 };
 
-constexpr std::array<KnownUnit, 26> kUnits{{{"s", ColumnUnit::second, Quantity::time, true},
+constexpr std::array<KnownUnit, 32> kUnits{{{"s", ColumnUnit::second, Quantity::time, true},
                                             {"sec", ColumnUnit::second, Quantity::time},
                                             {"secs", ColumnUnit::second, Quantity::time},
                                             {"second", ColumnUnit::second, Quantity::time},
@@ -94,6 +113,12 @@ constexpr std::array<KnownUnit, 26> kUnits{{{"s", ColumnUnit::second, Quantity::
                                             {"meters", ColumnUnit::metre, Quantity::length},
                                             {"metre", ColumnUnit::metre, Quantity::length},
                                             {"metres", ColumnUnit::metre, Quantity::length},
+                                            {"cm", ColumnUnit::centimetre, Quantity::length},
+                                            {"centimetres", ColumnUnit::centimetre, Quantity::length},
+                                            {"centimeters", ColumnUnit::centimetre, Quantity::length},
+                                            {"mm", ColumnUnit::millimetre, Quantity::length},
+                                            {"millimetres", ColumnUnit::millimetre, Quantity::length},
+                                            {"millimeters", ColumnUnit::millimetre, Quantity::length},
                                             {"deg", ColumnUnit::degree, Quantity::angle, true},
                                             {"degs", ColumnUnit::degree, Quantity::angle},
                                             {"degree", ColumnUnit::degree, Quantity::angle},
@@ -169,6 +194,36 @@ std::optional<TableColumn> find_pose_column(const std::string& base) {
   return std::nullopt;
 }
 
+/// "east_std_dev", "std_dev_e", "sd_height", "sigma_yaw": one axis and words of a deviation.
+std::optional<TableColumn> find_deviation(const std::string& base) {
+  constexpr std::array<std::string_view, 8> kDeviations{"std",   "sd",       "stddev",    "stdev",
+                                                        "sigma", "standard", "deviation", "dev"};
+  constexpr std::array<std::pair<std::string_view, TableColumn>, 14> kAxes{
+      {{"east", TableColumn::std_east},
+       {"easting", TableColumn::std_east},
+       {"lon", TableColumn::std_east},
+       {"longitude", TableColumn::std_east},
+       {"north", TableColumn::std_north},
+       {"northing", TableColumn::std_north},
+       {"lat", TableColumn::std_north},
+       {"latitude", TableColumn::std_north},
+       {"up", TableColumn::std_up},
+       {"height", TableColumn::std_up},
+       {"altitude", TableColumn::std_up},
+       {"roll", TableColumn::std_roll},
+       {"pitch", TableColumn::std_pitch},
+       {"heading", TableColumn::std_heading}}};
+  std::vector<std::string_view> words = words_of(base);
+  const auto is_deviation = [&](std::string_view word) {
+    return std::find(kDeviations.begin(), kDeviations.end(), word) != kDeviations.end();
+  };
+  const std::size_t removed = std::erase_if(words, is_deviation);
+  if (removed == 0 || words.size() != 1) return std::nullopt;
+  const auto* axis = std::find_if(kAxes.begin(), kAxes.end(),
+                                  [&](const auto& known) { return known.first == words.front(); });
+  return axis == kAxes.end() ? std::nullopt : std::optional(axis->second);
+}
+
 }  // namespace
 
 std::string_view to_string(TableColumn column) {
@@ -216,8 +271,15 @@ std::optional<ColumnMeaning> find_column(const std::string& base) {
     if (kKnown[i].name == base) return ColumnMeaning{static_cast<TableColumn>(i)};
   for (const Synonym& synonym : kSynonyms)
     if (synonym.name == base) return ColumnMeaning{synonym.column, synonym.factor};
+  if (const auto column = find_deviation(base)) return ColumnMeaning{*column};
   if (const auto column = find_pose_column(base)) return ColumnMeaning{*column};
   return std::nullopt;
+}
+
+bool names_rate(const std::string& base) {
+  constexpr std::array<std::string_view, 8> kRates{"vel",  "velocity",     "speed",   "accel",
+                                                   "rate", "acceleration", "angular", "bias"};
+  return has_one_of(words_of(base), kRates);
 }
 
 bool is_numbered_quaternion(const std::string& base) {

@@ -31,6 +31,7 @@ enum class TableColumn : std::uint8_t {
   std_roll,
   std_pitch,
   std_heading,
+  week,
   x,
   y,
   z,
@@ -45,7 +46,7 @@ enum class TableColumn : std::uint8_t {
   std_ry,
   std_rz
 };
-inline constexpr std::size_t kTableColumns = 30;
+inline constexpr std::size_t kTableColumns = 31;
 
 /// Three columns that belong together.
 using ColumnTriple = std::array<TableColumn, 3>;
@@ -73,6 +74,8 @@ enum class ColumnUnit : std::uint8_t {
   microsecond,
   nanosecond,
   metre,
+  centimetre,
+  millimetre,
   degree,
   radian
 };
@@ -105,6 +108,9 @@ struct ColumnMeaning {
 /// Tells whether the name is that of a numbered component of a quaternion (q0, quat_3), so that it is unknown
 /// which one is the scalar.
 [[nodiscard]] bool is_numbered_quaternion(const std::string& base);
+
+/// Tells whether the name is of a velocity, an acceleration or another rate, or of its deviation.
+[[nodiscard]] bool names_rate(const std::string& base);
 
 /// Returns the names of the columns of a table with angles, for "did you mean".
 [[nodiscard]] std::vector<std::string> table_names();

@@ -6,12 +6,15 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
 #include "cairn/geometry/covariance.h"
 #include "cairn/sequence/attitude.h"
 #include "cairn/sequence/geodetic.h"
+#include "cairn/sequence/gps_time.h"
 #include "cairn/sequence/pose_collector.h"
 #include "cairn/sequence/recorded_poses.h"
 #include "cairn/sequence/table_row.h"
+#include "cairn/sequence/table_text.h"
 
 namespace cairn {
 namespace {
@@ -47,6 +50,18 @@ RecordedPose parse_row(const TableRow& row, const RowKeys& keys, const TableHead
   return pose;
 }
 
+/// Says what the names leave open.
+void warn_of_assumptions(const TableHeader& header, RecordedPoses& recorded) {
+  if (header.heading_by_yaw)
+    recorded.warnings.push_back(fmt::format("{}:{}: yaw is taken as the heading, clockwise from north.",
+                                            recorded.source.string(), header.line));
+  if (!header.has(TableColumn::week)) return;
+  const int leap = leap_seconds_at(recorded.poses.front().key);
+  recorded.warnings.push_back(fmt::format(
+      "{}:{}: GPS time less {} leap seconds is UTC; if the frames have GPS time, add --pose-offset {}.",
+      recorded.source.string(), header.line, leap, leap));
+}
+
 }  // namespace
 
 RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader header) {
@@ -57,7 +72,7 @@ RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader hea
   recorded.subject = PoseSubject::body_forward_right_down;
   recorded.geodetic = header.has(kGeodetic);
   recorded.has_uncertainty = header.has(kPlaceDeviations) || header.has(kAngleDeviations);
-  const TextFile file(path, separator_of_rows(path));
+  const TextFile file(path, plain_table_text(read_file(path)), separator_of_rows(path));
   const std::vector<TextLine> rows = rows_below(header, file);
   if (rows.empty()) {
     throw InputError({path.string(), 0, "poses, one a line, below the names of the columns", "none",
@@ -73,6 +88,7 @@ RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader hea
                                     : collector.leave_out(file, line, row.key(keys));
   }
   collector.finish();
+  warn_of_assumptions(header, recorded);
   return recorded;
 }
 

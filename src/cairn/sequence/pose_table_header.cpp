@@ -7,6 +7,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
+#include "cairn/sequence/table_text.h"
 
 namespace cairn {
 namespace {
@@ -165,6 +166,7 @@ ColumnUnit unit_of(const fs::path& path, const TableHeader& header, std::size_t 
 bool may_be_mistaken(const std::string& base, const std::string& nearest) {
   constexpr std::array<std::string_view, 9> kDeviations{"std", "sd",  "stddev", "sigma",   "rms",
                                                         "acc", "var", "cov",    "accuracy"};
+  if (names_rate(base)) return false;
   const std::string words = "_" + base + "_";
   const bool names_deviation = std::any_of(
       kDeviations.begin(), kDeviations.end(),
@@ -230,11 +232,23 @@ void take_height_for_up(TableHeader& header) {
   if (height && !up && !geodetic && local) up.swap(height);
 }
 
+/// "yaw" beside latitude and longitude is the heading: surveyors' programs write it clockwise from north. In
+/// a local world it may as well be counted from x, so that it stays unknown there.
+void take_yaw_for_heading(const fs::path& path, TableHeader& header) {
+  if (header.has(TableColumn::heading) || !header.has(TableColumn::latitude)) return;
+  for (std::size_t field = 0; field < header.names.size(); ++field) {
+    const ColumnName name = split_name(header.names[field]);
+    if (name.base != "yaw") continue;
+    place_column(path, field, name, {TableColumn::heading}, header);
+    header.heading_by_yaw = true;
+  }
+}
+
 }  // namespace
 
 std::optional<TableHeader> find_table_header(const fs::path& path) {
   constexpr int kLongestHead = 200;  // lines; no file names its columns further down
-  const std::string contents = read_file(path);
+  const std::string contents = plain_table_text(read_file(path));
   LineScanner scanner(contents);
   Candidates candidates;
   while (scanner.number < kLongestHead && scanner.next()) {
@@ -265,6 +279,7 @@ void check_table_header(const fs::path& path, TableHeader& header) {
     else
       refuse_if_mistakable(path, header, field, name.base);
   }
+  take_yaw_for_heading(path, header);
   take_height_for_up(header);
   const bool geodetic = has_any(header, kGeodetic), local = has_any(header, kLocal);
   expect_one(path, header, header.has(TableColumn::time), header.has(TableColumn::frame),

@@ -26,6 +26,7 @@ struct TableHeader {
   std::vector<std::string> names;           ///< as written
   Separator separator = Separator::blanks;  ///< between the names; the rows may have another one
   bool open_ended = false;                  ///< "..." follows the names
+  bool heading_by_yaw = false;              ///< set by check_table_header
   std::array<std::optional<ColumnSource>, kTableColumns> places;  ///< set by check_table_header
 
   /// Returns the source of a column, nullopt if the table lacks it.

@@ -148,7 +148,7 @@ TEST_F(PoseTableTest, broken_headers_are_refused) {
       {"time_s,time_ns,east,north,up,roll,pitch,heading\n", 1, "one column 'time'", "'time_s' and 'time_ns'",
        "Delete one."},
       {"time,lattitude,lon,height,roll,pitch,heading\n", 1, names, "'lattitude'", "Did you mean 'latitude'?"},
-      {"time,east,north,up,roll,pitch,heading,sd_north\n", 1, names, "'sd_north'",
+      {"time,east,north,up,roll,pitch,heading,rms_north\n", 1, names, "'rms_north'",
        "Did you mean 'std_north'?"},
       {"time,east,north,up,roll,pitch,heading,sigma_n\n", 1, names, "'sigma_n'", "Did you mean"},
       {"time,east,north,up,roll,pitch,heading (gon)\n", 1, "'heading' in deg or rad", "'heading (gon)'",

@@ -6,10 +6,12 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
 #include "cairn/sequence/asl_sensor.h"
 #include "cairn/sequence/pose_collector.h"
 #include "cairn/sequence/recorded_poses.h"
 #include "cairn/sequence/table_row.h"
+#include "cairn/sequence/table_text.h"
 
 namespace cairn {
 namespace {
@@ -119,7 +121,7 @@ RecordedPoses read_quaternion_table(const fs::path& path, TableHeader header, bo
   check_quaternion_header(path, header);
   RecordedPoses recorded;
   recorded.source = path;
-  const TextFile file(path, separator_of_rows(path));
+  const TextFile file(path, plain_table_text(read_file(path)), separator_of_rows(path));
   const bool has_blanks = header.separator == Separator::blanks;
   if (is_of_asl_layout(path, header)) {
     recorded.format = "EuRoC";

@@ -64,6 +64,8 @@ RecordedPoses read_kitti(const TextFile& file) {
 
 /// By its content: names of columns first, then how many values a line has.
 RecordedPoses read_text(const fs::path& path, bool may_have_numbers) {
+  if (is_sbet(path)) return read_sbet(path);
+  if (is_novatel(path)) return read_novatel(path);
   if (const auto header = find_table_header(path)) {
     return names_quaternions(*header) ? read_quaternion_table(path, *header, may_have_numbers)
                                       : read_pose_table(path, *header);

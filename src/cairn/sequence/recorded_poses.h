@@ -38,7 +38,7 @@ struct RecordedPose {
 /// Holds the poses of a file or a folder.
 struct RecordedPoses {
   std::filesystem::path source;  ///< for messages
-  std::string format;            ///< "TUM", "KITTI", "EuRoC", "OXTS", "table"
+  std::string format;            ///< "TUM", "KITTI", "EuRoC", "OXTS", "NovAtel", "SBET", "table"
   PoseKey key = PoseKey::stamp;
   PoseSubject subject = PoseSubject::camera;
   bool geodetic = false;
@@ -61,6 +61,17 @@ struct RecordedPoses {
 /// Reads the packets of an OXTS inertial navigation system as KITTI has them (Geiger et al. 2013, "Vision
 /// meets robotics: the KITTI dataset"): data/NNNNNNNNNN.txt, each of 30 values, and timestamps.txt.
 [[nodiscard]] RecordedPoses read_oxts(const std::filesystem::path& folder);
+
+/// Tells whether a file holds logs INSPVAA, INSPVASA or INSPVAXA of a NovAtel receiver, perhaps among others.
+[[nodiscard]] bool is_novatel(const std::filesystem::path& path);
+/// Reads these logs; of several kinds the one with the most lines. Stamps become UTC since 1970, heights
+/// those above the ellipsoid. Lines without a navigation solution are left out and counted.
+[[nodiscard]] RecordedPoses read_novatel(const std::filesystem::path& path);
+
+/// Tells whether a file is a binary SBET: records of 17 doubles, of which the first is plausible.
+[[nodiscard]] bool is_sbet(const std::filesystem::path& path);
+/// Reads an SBET. Stamps are seconds of the GPS week, as the file has them.
+[[nodiscard]] RecordedPoses read_sbet(const std::filesystem::path& path);
 
 /// Reads a table with angles whose columns are named. `header` is that of find_table_header.
 [[nodiscard]] RecordedPoses read_pose_table(const std::filesystem::path& path, TableHeader header);

@@ -8,8 +8,11 @@
 #include <numbers>
 
 #include "cairn/core/error.h"
+#include "cairn/core/file.h"
 #include "cairn/core/text.h"
 #include "cairn/geometry/unit_rotation.h"
+#include "cairn/sequence/gps_time.h"
+#include "cairn/sequence/table_text.h"
 
 namespace cairn {
 namespace {
@@ -86,7 +89,7 @@ bool has_good_count(const TableHeader& header, const TextLine& line, std::size_t
 }  // namespace
 
 Separator separator_of_rows(const std::filesystem::path& path) {
-  const TextFile file(path, Separator::commas);
+  const TextFile file(path, plain_table_text(read_file(path)), Separator::commas);
   const auto& lines = file.lines();
   const auto begins_with_number = [](const TextLine& line) {
     double value = 0;
@@ -130,7 +133,16 @@ std::string_view TableRow::field(TableColumn column) const {
 double TableRow::number(TableColumn column) const {
   const ColumnSource place = header_.place(column).value();
   const double value = place.factor * file_.number(line_, place.field, to_string(column));
-  return place.unit == ColumnUnit::radian ? value / kRadian : value;
+  switch (place.unit) {
+    case ColumnUnit::radian:
+      return value / kRadian;
+    case ColumnUnit::millimetre:
+      return value / 1000;
+    case ColumnUnit::centimetre:
+      return value / 100;
+    default:
+      return value;
+  }
 }
 
 std::int64_t TableRow::key(const RowKeys& keys) const {
@@ -138,9 +150,24 @@ std::int64_t TableRow::key(const RowKeys& keys) const {
   if (!keys.are_times) return file_.integer(line_, field, header_.has(TableColumn::time) ? "time" : "frame");
   const std::string_view text = line_.fields[field];
   std::int64_t stamp_ns = 0;
-  if (parse_stamp_in(keys.unit, text, stamp_ns)) return stamp_ns;
+  if (parse_stamp_in(keys.unit, text, stamp_ns))
+    return header_.has(TableColumn::week) ? utc_from_gps(week(), of_week(stamp_ns)) : stamp_ns;
   file_.fail(line_, fmt::format("a time stamp in {}", name_of(keys.unit)), fmt::format("'{}'", text),
              kRemedy);
+}
+
+std::int64_t TableRow::week() const {
+  constexpr std::int64_t kLastWeek = 6000;
+  const std::int64_t week = file_.integer(line_, header_.place(TableColumn::week).value().field, "week");
+  if (week >= 0 && week <= kLastWeek) return week;
+  file_.fail(line_, fmt::format("a GPS week from 0 to {}", kLastWeek), fmt::format("{}", week), kRemedy);
+}
+
+std::int64_t TableRow::of_week(std::int64_t stamp_ns) const {
+  constexpr std::int64_t kTwoWeeksNs = 2 * 604'800'000'000'000;  // programs may count on over a week's end
+  if (stamp_ns >= 0 && stamp_ns <= kTwoWeeksNs) return stamp_ns;
+  file_.fail(line_, "seconds of the GPS week beside its number", format_seconds(stamp_ns),
+             "Delete the column of weeks if the times are complete, or correct the line.");
 }
 
 bool TableRow::lacks(const ColumnTriple& columns) const {

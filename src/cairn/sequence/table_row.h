@@ -57,6 +57,8 @@ class TableRow {
  private:
   [[nodiscard]] std::string_view field(TableColumn column) const;
   [[nodiscard]] double number(TableColumn column) const;
+  [[nodiscard]] std::int64_t week() const;
+  [[nodiscard]] std::int64_t of_week(std::int64_t stamp_ns) const;
 
   const TextFile& file_;
   const TextLine& line_;
