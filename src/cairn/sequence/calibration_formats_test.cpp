@@ -63,6 +63,9 @@ class CalibrationFormatsTest : public testing::Test, protected RecordingFolder {
 
 TEST_F(CalibrationFormatsTest, ros_calibrations_are_read) {
   expect_plain("ost.yaml", kRos);
+}
+
+TEST_F(CalibrationFormatsTest, ros_messages_are_read_as_they_are_echoed) {
   expect_plain("echo.yaml", R"(header:
   seq: 12
   stamp:

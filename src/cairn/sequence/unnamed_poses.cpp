@@ -204,6 +204,9 @@ RecordedPoses read_by_key(const TextFile& file, const std::vector<TextLine>& row
     collector.add(file, line, parse_row(file, line, layout, by_number, unit));
   }
   collector.finish();
+  if (!layout.is_matrix && separator_of_rows(file.path()) == Separator::commas)
+    recorded.warnings.push_back(
+        fmt::format("{}: no line names its columns: taken as {}.", file.path().string(), kTum));
   return recorded;
 }
 

@@ -53,6 +53,13 @@ TEST_F(UnnamedPosesTest, rows_of_tum_with_any_separator_more_columns_or_a_head) 
     expect_plain(text);
 }
 
+TEST_F(UnnamedPosesTest, between_commas_the_order_that_is_assumed_is_said) {
+  const TrajectoryFile file = read("10.5,1,2,3,0,0,0.6,0.8\n");
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_TRUE(file.warnings[0].ends_with(": no line names its columns: taken as t tx ty tz qx qy qz qw."));
+  EXPECT_TRUE(read(kPlain).warnings.empty());
+}
+
 TEST_F(UnnamedPosesTest, matrices_with_and_without_stamps_numbers_and_a_last_row) {
   const std::string first = "0.28 -0.96 0 1 0.96 0.28 0 2 0 0 1 3",
                     second = "1 0 0 4 0 0.28 -0.96 5 0 0.96 0.28 6";
