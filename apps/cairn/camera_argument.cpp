@@ -31,7 +31,9 @@ Calibration pinhole_of(const std::string& text) {
 Option add_camera_option(CommandLine& app, std::string& camera) {
   return app
       .add_option("--camera", camera,
-                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
+                  "camera.yaml or the calibration of another program (OpenCV, ROS, Kalibr, COLMAP, "
+                  "RealSense, Open3D), "
+                  "or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
       .type_name("FILE|NAME|fx,fy,cx,cy");
 }
 

@@ -127,7 +127,9 @@ SequenceOptions SequenceArguments::options() const {
 
 void add_sequence_options(CommandLine& app, SequenceArguments& arguments) {
   app.add_option("--camera", arguments.camera,
-                 "camera.yaml, or tum-fr1, tum-fr2, tum-fr3 (default: the sequence's own)")
+                 "camera.yaml or the calibration of another program (OpenCV, ROS, Kalibr, COLMAP, RealSense, "
+                 "Open3D), or "
+                 "tum-fr1, tum-fr2, tum-fr3 (default: the sequence's own)")
       .type_name("FILE|NAME");
   app.add_option("--frames", arguments.frames, "only these frames, by position, end excluded")
       .type_name("A:B[:S]");

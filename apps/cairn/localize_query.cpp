@@ -28,15 +28,14 @@ Calibration camera_of(const MapInfo& map) {
   return calibration;
 }
 
-/// The calibration in the order of who may say: --camera, camera.yaml beside the images, the map.
+/// The calibration in the order of who may say: --camera, one beside the images, the map.
 void choose_calibration(const fs::path& folder, const SequenceOptions& options, const MapInfo& map,
                         Sequence& sequence) {
-  const fs::path own = folder / "camera.yaml";
   sequence.calibration_source = kFromMap;
   if (!options.camera.empty()) {
     sequence.calibration_source = options.camera;
-  } else if (std::error_code error; fs::is_regular_file(own, error)) {
-    sequence.calibration_source = own.string();
+  } else if (const auto own = find_calibration(folder)) {
+    sequence.calibration_source = own->string();
   } else {
     sequence.calibration = camera_of(map);
     if (map.width > 0 && map.height > 0) return;

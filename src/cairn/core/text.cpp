@@ -36,14 +36,26 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
   return fields;
 }
 
-std::vector<std::string_view> split_at_blanks(std::string_view text) {
+std::vector<std::string_view> split_at_any(std::string_view text, std::string_view separators) {
   std::vector<std::string_view> fields;
-  for (std::size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(separators, begin), text.size());
     fields.push_back(text.substr(begin, end - begin));
-    begin = text.find_first_not_of(kBlanks, end);
+    begin = text.find_first_not_of(separators, end);
   }
   return fields;
+}
+
+std::vector<std::string_view> split(std::string_view line, Separator separator) {
+  switch (separator) {
+    case Separator::commas:
+      return split_at_commas(line);
+    case Separator::any:
+      return split_at_any(line, " \t\r\v\f,;");
+    case Separator::blanks:
+      break;
+  }
+  return split_at_any(line, kBlanks);
 }
 
 bool is_digit(char c) {
@@ -79,11 +91,38 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+void expect_text(const std::filesystem::path& path, std::string_view contents) {
+  struct Kind {
+    std::string_view begin, name, remedy;
+  };
+  constexpr std::string_view kOther = "Name the text file instead.";
+  constexpr std::string_view kConvert = "Save it as UTF-8: iconv -f UTF-16 -t UTF-8 IN > OUT.";
+  constexpr Kind kKinds[] = {
+      {"\xFF\xFE", "text in UTF-16", kConvert},
+      {"\xFE\xFF", "text in UTF-16", kConvert},
+      {"\x89PNG", "a picture (PNG)", kOther},
+      {"\xFF\xD8\xFF", "a picture (JPEG)", kOther},
+      {"%PDF", "a PDF document", kOther},
+      {"PK\x03\x04", "an archive or a spreadsheet (zip)", "Unpack it, or save it as CSV."},
+      {"#ROSBAG", "a ROS 1 bag", "Write its topic as text: rostopic echo -b FILE -p TOPIC."},
+      {"SQLite format 3", "a database (SQLite; a ROS 2 bag is one)", kOther}};
+  const auto fail = [&](std::string_view found, std::string_view remedy) {
+    throw InputError({path.string(), 0, "a text file", std::string(found), std::string(remedy)});
+  };
+  for (const Kind& kind : kKinds)
+    if (contents.starts_with(kind.begin)) fail(kind.name, kind.remedy);
+  const std::size_t zero = contents.find('\0');
+  if (zero == std::string_view::npos) return;
+  const bool is_wide = contents.size() > 3 && zero < 2 && contents[zero + 2] == '\0';
+  is_wide ? fail("text in UTF-16", kConvert) : fail("binary data", kOther);
+}
+
 TextFile::TextFile(const std::filesystem::path& path, Separator separator)
     : TextFile(path, read_file(path), separator) {}
 
 TextFile::TextFile(std::filesystem::path path, std::string contents, Separator separator)
     : path_(std::move(path)), contents_(std::move(contents)) {
+  expect_text(path_, contents_);
   std::string_view all = contents_;
   if (all.starts_with(kByteOrderMark)) all.remove_prefix(kByteOrderMark.size());
   int number = 0;
@@ -92,7 +131,7 @@ TextFile::TextFile(std::filesystem::path path, std::string contents, Separator s
     ++number;
     std::string_view line = all.substr(begin, end - begin);
     line = line.substr(0, line.find('#'));
-    auto fields = separator == Separator::commas ? split_at_commas(line) : split_at_blanks(line);
+    auto fields = split(line, separator);
     if (!fields.empty()) lines_.push_back({number, std::move(fields)});
     begin = end + 1;
   }

@@ -18,13 +18,19 @@ struct TextLine {
   std::vector<std::string_view> fields;
 };
 
-/// Names the separator of a line's fields: white space, or commas, with blanks around a field left out.
-enum class Separator { blanks, commas };
+/// Names the separator of a line's fields: white space; commas, with blanks around a field left out; or any
+/// run of white space, commas and semicolons.
+enum class Separator { blanks, commas, any };
+
+/// Throws InputError that says what the contents are and what to do unless they are text: a picture, UTF-16
+/// ...
+void expect_text(const std::filesystem::path& path, std::string_view contents);
 
 /// Holds a text file; empty lines and what follows a '#' are left out. Field accessors throw InputError that
 /// names file and line.
 class TextFile {
  public:
+  /// Reads the file. Throws InputError if it cannot be read or holds no text.
   explicit TextFile(const std::filesystem::path& path, Separator separator = Separator::blanks);
   /// Takes `contents` as those of the file `path`.
   TextFile(std::filesystem::path path, std::string contents, Separator separator);

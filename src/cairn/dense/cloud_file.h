@@ -7,7 +7,7 @@
 
 namespace cairn {
 
-/// Tells whether the name ends in .ply or .pcd.
+/// Tells whether the name ends in .ply or .pcd, in capitals or not.
 [[nodiscard]] bool is_cloud_file(const std::filesystem::path& path);
 /// Throws InputError unless the name ends in .ply or .pcd; to be called before long work.
 void require_cloud_file(const std::filesystem::path& path);

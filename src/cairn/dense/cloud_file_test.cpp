@@ -205,7 +205,10 @@ const Broken kBroken[] = {
     {"nofields.pcd", "POINTS 1\nDATA ascii\n1 2 3\n",
      ":2: expected FIELDS before DATA, found none.\n  Write the file again; its header is broken."},
     {"compressed.pcd", "FIELDS x y z\nPOINTS 1\nDATA binary_compressed\n",
-     ":3: expected DATA ascii or binary, found 'binary_compressed'.\n"
+     ": expected two sizes before compressed points, found 0 bytes.\n"
+     "  The file is cut off or damaged; write or copy it again."},
+    {"unknown.pcd", "FIELDS x y z\nPOINTS 1\nDATA binary_zipped\n",
+     ":3: expected DATA ascii, binary or binary_compressed, found 'binary_zipped'.\n"
      "  Convert the file, for example with pcl_convert_pcd_ascii_binary IN.pcd OUT.pcd 1."},
     {"packed.pcd", "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nPOINTS 1\nDATA ascii\n1 2 3 red\n",
      ":6: expected a packed colour, found 'red'.\n  Correct or delete the line."},
@@ -240,6 +243,14 @@ TEST(CloudFile, TruncatedAnywhereItIsAnInputErrorOrReadAsAWhole) {
     const std::string contents = read_file(whole);
     for (std::size_t length = 0; length < contents.size(); ++length)
       EXPECT_THROW((void)read_text(name, contents.substr(0, length)), InputError) << name << " " << length;
+  }
+}
+
+TEST(CloudFile, extensions_may_have_capitals) {
+  const testkit::TemporaryFolder folder;
+  for (const char* name : {"cloud.PLY", "cloud.Pcd"}) {
+    write_cloud(folder / name, Cloud{{{1.5F, -2, 3, 1, 2, 255}}});
+    EXPECT_EQ(read_cloud(folder / name).points, (std::vector<CloudPoint>{{1.5F, -2, 3, 1, 2, 255}})) << name;
   }
 }
 

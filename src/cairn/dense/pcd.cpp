@@ -10,6 +10,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/text.h"
+#include "cairn/dense/lzf.h"
 #include "cairn/dense/point_records.h"
 
 namespace cairn {
@@ -36,6 +37,7 @@ class PcdHeader {
   }
 
   [[nodiscard]] bool ascii() const { return format_ == "ascii"; }
+  [[nodiscard]] bool compressed() const { return format_ == "binary_compressed"; }
   [[nodiscard]] const std::vector<PointField>& fields() const { return fields_; }
   [[nodiscard]] PointData data() const { return {contents_.substr(begin_), count_, line_ + 1}; }
 
@@ -128,11 +130,55 @@ void PcdHeader::set_kind(PointField& field, std::string_view word) const {
 }
 
 void PcdHeader::set_format(std::string_view format) {
-  if (format != "ascii" && format != "binary") {
-    fail("DATA ascii or binary", fmt::format("'{}'", format),
+  if (format != "ascii" && format != "binary" && format != "binary_compressed") {
+    fail("DATA ascii, binary or binary_compressed", fmt::format("'{}'", format),
          "Convert the file, for example with pcl_convert_pcd_ascii_binary IN.pcd OUT.pcd 1.");
   }
   format_ = format;
+}
+
+[[noreturn]] void fail_compressed(const std::filesystem::path& path, std::string expected,
+                                  std::string found) {
+  throw InputError({path.string(), 0, std::move(expected), std::move(found),
+                    "The file is cut off or damaged; write or copy it again."});
+}
+
+std::uint32_t load_size(std::string_view bytes, std::size_t at) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, bytes.data() + at, sizeof size);
+  return size;
+}
+
+/// Two sizes, compressed and whole, precede the bytes.
+std::string decompress(const std::filesystem::path& path, const PointData& data) {
+  constexpr std::size_t kSizes = 8;
+  if (data.bytes.size() < kSizes)
+    fail_compressed(path, "two sizes before compressed points", fmt::format("{} bytes", data.bytes.size()));
+  const std::size_t packed = load_size(data.bytes, 0), whole = load_size(data.bytes, 4);
+  if (packed > data.bytes.size() - kSizes)
+    fail_compressed(path, fmt::format("{} bytes of compressed points", packed),
+                    fmt::format("{}", data.bytes.size() - kSizes));
+  auto points = decompress_lzf(data.bytes.substr(kSizes, packed), whole);
+  if (!points) fail_compressed(path, fmt::format("points that decompress to {} bytes", whole), "others");
+  return *std::move(points);
+}
+
+/// Compressed clouds hold all values of the first field, then those of the second, and so on.
+std::string rows_of_columns(const std::vector<PointField>& fields, std::size_t count,
+                            const std::string& columns) {
+  std::size_t stride = 0;
+  for (const PointField& field : fields) stride += field.size * field.count;
+  if (count > columns.size() / stride) return {};  // read_binary says that the points are too few
+  std::string rows(count * stride, '\0');
+  std::size_t column = 0, offset = 0;
+  for (const PointField& field : fields) {
+    const std::size_t bytes = field.size * field.count;
+    for (std::size_t i = 0; i < count; ++i)
+      std::memcpy(rows.data() + i * stride + offset, columns.data() + column + i * bytes, bytes);
+    column += count * bytes;
+    offset += bytes;
+  }
+  return rows;
 }
 
 }  // namespace
@@ -141,7 +187,12 @@ Cloud read_pcd(const std::filesystem::path& path) {
   const std::string contents = read_file(path);
   const PcdHeader header(path, contents);
   const PointRecords records(path, header.fields());
-  return header.ascii() ? records.read_ascii(header.data()) : records.read_binary(header.data());
+  if (header.ascii()) return records.read_ascii(header.data());
+  if (!header.compressed()) return records.read_binary(header.data());
+  PointData data = header.data();
+  const std::string rows = rows_of_columns(header.fields(), data.count, decompress(path, data));
+  data.bytes = rows;
+  return records.read_binary(data);
 }
 
 void write_pcd(const std::filesystem::path& path, const Cloud& cloud) {

@@ -7,8 +7,8 @@
 
 namespace cairn {
 
-/// Reads the points of a PCD file (Point Cloud Library), ascii or binary; skips other fields. Throws
-/// InputError for any defect and for binary_compressed; checks sizes before it trusts counts.
+/// Reads the points of a PCD file (Point Cloud Library), ascii, binary or binary_compressed; skips other
+/// fields. Throws InputError for any defect; checks sizes before it trusts counts.
 [[nodiscard]] Cloud read_pcd(const std::filesystem::path& path);
 
 /// Writes a binary PCD file, version 0.7: x y z and PCL's packed rgb. The file appears when it is complete.

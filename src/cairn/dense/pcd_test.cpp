@@ -45,6 +45,19 @@ TEST(Pcd, fields_are_of_four_bytes_unless_sizes_are_given) {
             (std::vector<CloudPoint>{{1, 1, 1}}));
 }
 
+/// Column by column: five times 1 and once 2; four bytes, sixteen more four bytes back, four bytes.
+TEST(Pcd, compressed_points_are_those_of_the_plain_file) {
+  const std::string header = "FIELDS x y z\nPOINTS 2\nDATA ";
+  const std::string one("\0\0\x80\x3f", 4), two("\0\0\0\x40", 4);
+  const std::string packed = '\x03' + one + "\xe0\x07\x03" + '\x03' + two;
+  const std::string sizes("\x0d\0\0\0\x18\0\0\0", 8);
+  const Cloud plain = read_text(header + "binary\n" + one + one + one + one + one + two);
+  EXPECT_EQ(read_text(header + "binary_compressed\n" + sizes + packed).points, plain.points);
+  EXPECT_THROW((void)read_text(header + "binary_compressed\n" + sizes + packed.substr(1)), InputError);
+  const std::string larger("\x0d\0\0\0\x19\0\0\0", 8);
+  EXPECT_THROW((void)read_text(header + "binary_compressed\n" + larger + packed), InputError);
+}
+
 TEST(Pcd, points_without_colour_are_not_coloured) {
   const Cloud cloud = read_text(std::string(kXyz) + "POINTS 1\nDATA ascii\n1 2 3\n");
   EXPECT_FALSE(cloud.colored);

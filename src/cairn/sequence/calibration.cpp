@@ -11,6 +11,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/geometry/unit_rotation.h"
+#include "cairn/sequence/calibration_formats.h"
 #include "cairn/sequence/yaml_mapping.h"
 
 namespace cairn {
@@ -142,6 +143,33 @@ Rigid3 parse_body(const YamlMapping& mapping) {
   return parse_transform(mapping.sub("body_from_camera", kTransformKeys));
 }
 
+YamlMapping open_own(const std::filesystem::path& path) {
+  return {path.string(),
+          "calibration",
+          load_yaml(path),
+          {"camera", "right", "depth", "body", "poses_are", "rate_hz"}};
+}
+
+/// All but the cameras of the images.
+void parse_depth_and_poses(const YamlMapping& mapping, Calibration& calibration) {
+  if (mapping.has("depth")) {
+    calibration.depth =
+        parse_depth(mapping.sub("depth", {"scale", "invalid", "camera", "camera_from_depth"}));
+  }
+  if (mapping.has("body"))
+    calibration.body_from_camera = parse_body(mapping.sub("body", {"body_from_camera"}));
+  if (mapping.has("poses_are")) {
+    const auto which = mapping.get<std::string>("poses_are", "camera or depth");
+    mapping.check(which == "camera" || which == "depth", "poses_are", "camera or depth");
+    calibration.poses_are = which == "depth" ? PosesAre::depth : PosesAre::camera;
+    mapping.check(which == "camera" || calibration.depth, "poses_are", "camera, as there is no 'depth',");
+  }
+  if (mapping.has("rate_hz")) {
+    calibration.rate_hz = mapping.positive("rate_hz");
+    mapping.check(*calibration.rate_hz <= 1e6, "rate_hz", "at most a million frames per second");
+  }
+}
+
 std::string format_transform(const Rigid3& transform) {
   const auto& t = transform.translation;
   const auto& q = transform.rotation;
@@ -220,30 +248,44 @@ Rigid3 body_from_loaded_camera(const Calibration& calibration, const Rigid3& bod
 }
 
 Calibration read_calibration(const std::filesystem::path& path) {
-  const YamlMapping mapping(path.string(), "calibration", load_yaml(path),
-                            {"camera", "right", "depth", "body", "poses_are", "rate_hz"});
+  if (std::filesystem::is_directory(path)) {
+    if (const auto file = find_calibration(path)) return read_calibration(*file);
+    throw InputError({path.string(), 0, "a calibration, camera.yaml or one of another program",
+                      "a folder without", "Name the file (README, \"Calibration\")."});
+  }
+  if (auto foreign = read_foreign_calibration(path)) return *std::move(foreign);
+  const YamlMapping mapping = open_own(path);
   Calibration calibration;
   mapping.expect("camera", "the colour or left camera");
   calibration.camera = parse_camera(mapping.sub("camera", kCameraKeys));
-  if (mapping.has("depth")) {
-    calibration.depth =
-        parse_depth(mapping.sub("depth", {"scale", "invalid", "camera", "camera_from_depth"}));
-  }
+  parse_depth_and_poses(mapping, calibration);
   if (mapping.has("right"))
     parse_right(mapping.sub("right", {"baseline", "camera", "left_from_right", "correction"}), calibration);
-  if (mapping.has("body"))
-    calibration.body_from_camera = parse_body(mapping.sub("body", {"body_from_camera"}));
-  if (mapping.has("poses_are")) {
-    const auto which = mapping.get<std::string>("poses_are", "camera or depth");
-    mapping.check(which == "camera" || which == "depth", "poses_are", "camera or depth");
-    calibration.poses_are = which == "depth" ? PosesAre::depth : PosesAre::camera;
-    mapping.check(which == "camera" || calibration.depth, "poses_are", "camera, as there is no 'depth',");
-  }
-  if (mapping.has("rate_hz")) {
-    calibration.rate_hz = mapping.positive("rate_hz");
-    mapping.check(*calibration.rate_hz <= 1e6, "rate_hz", "at most a million frames per second");
-  }
   return calibration;
+}
+
+std::optional<Calibration> read_calibration_addition(const std::filesystem::path& path) {
+  const YAML::Node root = load_yaml(path);
+  if (!root.IsMap() || root["camera"] || root["right"] || read_foreign_calibration(path)) return std::nullopt;
+  Calibration addition;
+  parse_depth_and_poses(open_own(path), addition);
+  return addition;
+}
+
+void complete_calibration(const Calibration& addition, Calibration& calibration) {
+  if (addition.body_from_camera) calibration.body_from_camera = addition.body_from_camera;
+  if (addition.rate_hz) calibration.rate_hz = addition.rate_hz;
+  if (!addition.depth) return;
+  calibration.depth = addition.depth;
+  calibration.poses_are = addition.poses_are;
+}
+
+std::optional<std::filesystem::path> find_calibration(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored)) return std::nullopt;
+  if (std::filesystem::path own = folder / "camera.yaml"; std::filesystem::exists(own, ignored))
+    if (!read_calibration_addition(own)) return own;
+  return find_foreign_calibration(folder);
 }
 
 std::string format_calibration(const Calibration& calibration) {

@@ -67,9 +67,19 @@ void set_raw_stereo(const StereoPair& pair, const SourceLocation& place, Calibra
 /// pose `body_from_camera`: rectification rotates it.
 [[nodiscard]] Rigid3 body_from_loaded_camera(const Calibration& calibration, const Rigid3& body_from_camera);
 
-/// Reads a camera.yaml. Throws InputError with the line for an unknown or missing key, fx = 0, a scale of 0,
-/// or a wrong type.
+/// Reads a camera.yaml or a calibration of another program, recognised by its content: OpenCV, ROS, Kalibr,
+/// COLMAP, RealSense, Open3D (docs/inputs.md); or the one that find_calibration finds in a folder. Throws
+/// InputError with the line for an unknown or missing key, fx = 0, a scale of 0, a wrong type, or a
+/// distortion that Camera lacks.
 [[nodiscard]] Calibration read_calibration(const std::filesystem::path& path);
+/// Finds the calibration in a folder: camera.yaml, else one of another program under its usual name. Returns
+/// nullopt if there is none, or only a camera.yaml without camera.
+[[nodiscard]] std::optional<std::filesystem::path> find_calibration(const std::filesystem::path& folder);
+/// Reads a camera.yaml that has no camera: depth, body, poses_are and rate_hz, which complete a calibration
+/// from elsewhere. Returns nullopt for any other calibration. Throws InputError as read_calibration does.
+[[nodiscard]] std::optional<Calibration> read_calibration_addition(const std::filesystem::path& path);
+/// Puts what an addition states in the place of what the calibration has.
+void complete_calibration(const Calibration& addition, Calibration& calibration);
 /// Formats a calibration as a camera.yaml.
 [[nodiscard]] std::string format_calibration(const Calibration& calibration);
 /// Returns the calibration of a camera of the TUM RGB-D benchmark (tum-fr1, tum-fr2 or tum-fr3; depth 5000

@@ -84,7 +84,8 @@ void list_euroc(const fs::path& folder, const SequenceOptions& options, Sequence
   const fs::path left = root / "cam0/sensor.yaml", right = root / "cam1/sensor.yaml";
   if (sequence.calibration_source.empty()) {
     const Rigid3 body_from_left = read_body_from_sensor(left);
-    sequence.calibration.body_from_camera = body_from_left;
+    auto& stated = sequence.calibration.body_from_camera;
+    if (!stated) stated = body_from_left;
     const LeftFromRight left_from_right(body_from_left.inverse() * read_body_from_sensor(right));
     set_raw_stereo({read_asl_camera(left), read_asl_camera(right), left_from_right}, {right.string()},
                    sequence.calibration);

@@ -189,8 +189,8 @@ TEST_F(GivenPosesTest, broken_files_are_refused) {
       {"1,0,0,0,1,0,0,0\n2,3\n",
        ":2: expected 8 values (stamp, px, py, pz, qw, qx, qy, qz, ...), found 2.\n  Correct or delete the "
        "line."},
-      {"1.5,0,0,0,1,0,0,0\n",
-       ":1: expected a time stamp in whole nanoseconds, found '1.5'.\n  Correct or delete the "
+      {"1,0,0,0,1,0,0,0\n1.5,0,0,0,1,0,0,0\n",
+       ":2: expected a time stamp in whole nanoseconds, found '1.5'.\n  Correct or delete the "
        "line."},
   };
   Sequence sequence = sequence_of("7-Scenes", {0, 1, 2}, 10);

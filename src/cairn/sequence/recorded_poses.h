@@ -83,6 +83,15 @@ struct RecordedPoses {
 /// names.
 [[nodiscard]] RecordedPoses read_unnamed_asl_poses(const std::filesystem::path& path);
 
+/// Reads poses that no line names: TUM's rows, perhaps with more columns behind, separated by blanks, commas
+/// or semicolons; 3x4 or 4x4 matrices by rows, perhaps behind a number or a stamp (KITTI); EuRoC's rows; the
+/// vertices of a g2o file by their ids. Lines before the first row of numbers are left out. Throws InputError
+/// for any defect.
+[[nodiscard]] RecordedPoses read_unnamed_poses(const std::filesystem::path& path, bool may_have_numbers);
+
+/// Returns the pose with its key.
+[[nodiscard]] RecordedPose recorded_pose(std::int64_t key, const Rigid3& world_from_subject);
+
 /// Returns the covariance of independent errors: the squares on the diagonal.
 [[nodiscard]] Eigen::Matrix3d covariance_of(const Eigen::Vector3d& standard_deviations);
 

@@ -4,31 +4,13 @@
 #include <fmt/format.h>
 
 #include "cairn/core/error.h"
+#include "cairn/sequence/calibration_choice.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The calibration in the order of who may say: parameter file, --camera, the folder. Nothing: the format's
-/// own.
-void choose_calibration(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
-  const auto take = [&](const Calibration& calibration, std::string source) {
-    sequence.calibration = calibration;
-    sequence.calibration_source = std::move(source);
-  };
-  if (!options.camera.empty()) {
-    if (const auto known = known_calibration(options.camera)) return take(*known, options.camera);
-    if (!fs::exists(options.camera)) {
-      throw InputError({"--camera", 0, "a camera.yaml, or tum-fr1, tum-fr2, tum-fr3",
-                        fmt::format("'{}', no such file", options.camera), "Check the path."});
-    }
-    return take(read_calibration(options.camera), options.camera);
-  }
-  const fs::path own = folder / "camera.yaml";
-  if (fs::exists(own)) take(read_calibration(own), own.string());
-}
 
 [[noreturn]] void fail_unknown_format(const fs::path& folder) {
   const bool has_rgb = fs::exists(folder / "rgb.txt"), has_depth = fs::exists(folder / "depth.txt");
@@ -94,9 +76,11 @@ void check_calibration(const fs::path& folder, const Sequence& sequence) {
   }
   const bool has_depth = !sequence.frames.empty() && !sequence.frames[0].depth.empty();
   if (has_depth && !sequence.calibration.depth) {
-    throw InputError({sequence.calibration_source, 0,
-                      "'depth: {scale: ...}', units per metre, as the sequence has depth images", "none",
-                      "Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark)."});
+    throw InputError(
+        {sequence.calibration_source, 0,
+         "'depth: {scale: ...}', units per metre, as the sequence has depth images", "none",
+         "Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark), of another program's "
+         "calibration in a camera.yaml with 'depth' alone, or by --set camera.scale=1000."});
   }
 }
 
@@ -143,13 +127,10 @@ Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
   }
   Sequence sequence;
   sequence.folder = folder;
-  choose_calibration(folder, options, sequence);
-  const Sequence chosen = sequence;
+  const ChosenCalibration chosen = choose_calibration(folder, options);
+  chosen.apply(sequence);  // a reader asks for the rate, and where the camera sits on a body
   list_frames(folder, options, sequence);
-  if (!chosen.calibration_source.empty()) {  // goes before what the format carries
-    sequence.calibration = chosen.calibration;
-    sequence.calibration_source = chosen.calibration_source;
-  }
+  chosen.apply(sequence);  // goes before what the format carries
   select_frames(options, sequence);
   apply_parameters(options.camera_parameters, sequence);
   check_calibration(folder, sequence);

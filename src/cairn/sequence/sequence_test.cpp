@@ -138,7 +138,9 @@ TEST_F(SequenceTest, depth_without_a_scale_is_refused) {
   EXPECT_EQ(refusal(),
             (folder_ / "camera.yaml").string() +
                 ": expected 'depth: {scale: ...}', units per metre, as the sequence has depth images, "
-                "found none.\n  Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark).");
+                "found none.\n  Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark), of "
+                "another "
+                "program's calibration in a camera.yaml with 'depth' alone, or by --set camera.scale=1000.");
 }
 
 TEST_F(SequenceTest, what_is_no_sequence_is_refused) {

@@ -74,7 +74,7 @@ TEST_F(TrajectoryTest, broken_lines_are_refused_by_number) {
       {"# only this\n", "", "poses, one a line: t tx ty tz qx qy qz qw", "none",
        "Check that this is the right file."},
       {"1 0 0 0 0 0 0 1\n2 0 0 0 0 0 1\n", ":2", "8 values (t tx ty tz qx qy qz qw)", "7", mend},
-      {"#\n1 0 0 0 0 0 0 1 9\n", ":2", "8 values (t tx ty tz qx qy qz qw)", "9", mend},
+      {"1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1 9\n", ":2", "8 values (t tx ty tz qx qy qz qw)", "9", mend},
       {"x 0 0 0 0 0 0 1\n", ":1", "a time stamp in seconds", "'x'", mend},
       {"nan 0 0 0 0 0 0 1\n", ":1", "a time stamp in seconds", "'nan'", mend},
       {"1e99 0 0 0 0 0 0 1\n", ":1", "a time stamp in seconds", "'1e99'", mend},

@@ -12,6 +12,7 @@
 #include "cairn/core/text.h"
 #include "cairn/sequence/association.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/time_unit.h"
 
 namespace cairn {
 namespace {
@@ -23,13 +24,29 @@ struct StampedFile {
   fs::path path;
 };
 
-std::int64_t stamp_in(const TextFile& file, const TextLine& line, std::size_t field) {
+/// The stamps' unit by their size: seconds, unless they were written as whole milli-, micro- or nanoseconds.
+TimeUnit unit_of_stamps(const TextFile& file) {
+  std::vector<std::string_view> stamps;
+  for (const TextLine& line : file.lines()) stamps.push_back(line.fields.front());
+  return infer_time_unit(stamps);
+}
+
+std::int64_t stamp_in(const TextFile& file, const TextLine& line, std::size_t field, TimeUnit unit) {
   std::int64_t stamp_ns = 0;
-  if (!parse_stamp(line.fields[field], stamp_ns)) {
+  if (!parse_stamp_in(unit, line.fields[field], stamp_ns)) {
     file.fail(line, "a time stamp in seconds", fmt::format("'{}'", line.fields[field]),
               "Correct or delete the line.");
   }
   return stamp_ns;
+}
+
+/// The path in a list, relative to the list's folder, without "./".
+fs::path file_in(const fs::path& folder, std::string_view path) {
+  return folder / fs::path(path).lexically_normal();
+}
+
+bool is_in_depth_folder(std::string_view path) {
+  return fs::path(path).lexically_normal().string().starts_with("depth");
 }
 
 void expect_increasing(const TextFile& file, const TextLine& line, std::int64_t before,
@@ -41,12 +58,13 @@ void expect_increasing(const TextFile& file, const TextLine& line, std::int64_t 
 
 std::vector<StampedFile> read_list(const fs::path& folder, const char* name) {
   const TextFile file(folder / name);
+  const TimeUnit unit = unit_of_stamps(file);
   std::vector<StampedFile> files;
   for (const TextLine& line : file.lines()) {
     file.expect_fields(line, 2, "stamp path");
-    const std::int64_t stamp_ns = stamp_in(file, line, 0);
+    const std::int64_t stamp_ns = stamp_in(file, line, 0, unit);
     if (!files.empty()) expect_increasing(file, line, files.back().stamp_ns, stamp_ns);
-    files.push_back({stamp_ns, folder / std::string(line.fields[1])});
+    files.push_back({stamp_ns, file_in(folder, line.fields[1])});
   }
   return files;
 }
@@ -84,11 +102,12 @@ bool covers_the_lists(const fs::path& associations, const fs::path& folder) {
 void list_associated(const fs::path& path, Sequence& sequence) {
   const TextFile file(path);
   const fs::path folder = path.parent_path();
+  const TimeUnit unit = unit_of_stamps(file);
   for (const TextLine& line : file.lines()) {
     file.expect_fields(line, 4, "stamp rgb stamp depth");
-    StampedFile color{stamp_in(file, line, 0), folder / std::string(line.fields[1])};
-    StampedFile depth{stamp_in(file, line, 2), folder / std::string(line.fields[3])};
-    if (line.fields[1].starts_with("depth") && !line.fields[3].starts_with("depth")) std::swap(color, depth);
+    StampedFile color{stamp_in(file, line, 0, unit), file_in(folder, line.fields[1])};
+    StampedFile depth{stamp_in(file, line, 2, unit), file_in(folder, line.fields[3])};
+    if (is_in_depth_folder(line.fields[1]) && !is_in_depth_folder(line.fields[3])) std::swap(color, depth);
     if (!sequence.frames.empty())
       expect_increasing(file, line, sequence.frames.back().stamp_ns, color.stamp_ns);
     add_frame(sequence, color, depth);

@@ -46,6 +46,19 @@ TEST_F(TumTest, associates_by_time) {
   EXPECT_EQ(sequence.truth->size(), 2U);
 }
 
+TEST_F(TumTest, lists_may_have_nanoseconds_tabs_and_paths_from_here) {
+  const Sequence plain = open_sequence(folder_);
+  put("rgb.txt", "1000000000\t./rgb/a.png\r\n1100000000\t./rgb/b.png\r\n1200000000\t./rgb/c.png\r\n");
+  put("depth.txt", "\xEF\xBB\xBF" "# depth\r\n1015000000 ./depth/a.png\r\n1190000000 ./depth/c.png\r\n");
+  const Sequence sequence = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), plain.frames.size());
+  for (std::size_t i = 0; i < plain.frames.size(); ++i) {
+    EXPECT_EQ(sequence.frames[i].stamp_ns, plain.frames[i].stamp_ns);
+    EXPECT_EQ(sequence.frames[i].color, plain.frames[i].color);
+    EXPECT_EQ(sequence.frames[i].depth, plain.frames[i].depth);
+  }
+}
+
 TEST_F(TumTest, a_wider_gap_finds_more) {
   SequenceOptions options;
   options.max_stamp_gap_s = 0.21;
@@ -56,7 +69,10 @@ TEST_F(TumTest, a_wider_gap_finds_more) {
 
 TEST_F(TumTest, associations_stand_in_for_a_list_whichever_image_comes_first) {
   fs::remove(folder_ / "depth.txt");
-  for (const char* line : {"1.0 rgb/x.png 1.5 depth/y.png\n", "1.5 depth/y.png 1.0 rgb/x.png\n"}) {
+  for (const char* line : {"1.0 rgb/x.png 1.5 depth/y.png\n", "1.5 depth/y.png 1.0 rgb/x.png\n",
+                           "1.5 ./depth/y.png 1.0 ./rgb/x.png\r\n",
+                           "\xEF\xBB\xBF"
+                           "1.5\tdepth/y.png\t1.0\trgb/x.png\r\n"}) {
     put("associations.txt", line);
     const Sequence sequence = open_sequence(folder_);
     ASSERT_EQ(sequence.frames.size(), 1U);

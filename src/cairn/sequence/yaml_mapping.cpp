@@ -14,6 +14,7 @@ namespace cairn {
 YAML::Node load_yaml(const std::filesystem::path& path) {
   std::string text = read_file(path);
   if (text.starts_with("%YAML:")) text.replace(0, std::min(text.find('\n'), text.size()), "");
+  if (text.starts_with("{")) std::replace(text.begin(), text.end(), '\t', ' ');
   YAML::Node root;
   try {
     root = YAML::Load(text);

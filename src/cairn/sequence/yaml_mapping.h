@@ -11,8 +11,8 @@
 
 namespace cairn {
 
-/// Loads a YAML file; skips OpenCV's first line `%YAML:1.0`, which is not YAML. Throws InputError for invalid
-/// YAML and for an empty file.
+/// Loads a YAML or JSON file; skips OpenCV's first line `%YAML:1.0`, which is not YAML, and takes tabs in
+/// JSON for blanks. Throws InputError for invalid YAML and for an empty file.
 [[nodiscard]] YAML::Node load_yaml(const std::filesystem::path& path);
 
 /// Reads one YAML mapping; every error is an InputError with a line.
@@ -26,6 +26,8 @@ class YamlMapping {
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] int line() const { return node_.Mark().line + 1; }
   [[nodiscard]] bool has(const std::string& key) const { return static_cast<bool>(node_[key]); }
+  /// Tells whether the value of `key` is a mapping.
+  [[nodiscard]] bool is_mapping(const std::string& key) const { return has(key) && node_[key].IsMap(); }
   /// Throws InputError unless the key exists.
   void expect(const std::string& key, const std::string& kind) const;
 
