@@ -3,13 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cairn/core/error.h"
+#include "cairn/sequence/camera_numbers.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// --camera has the numbers of a pinhole camera, which complete the calibration of folder or format.
+bool gives_numbers(const SequenceOptions& options) {
+  return !fs::exists(options.camera) && options.camera.find(',') != std::string::npos;
+}
 
 /// The calibration in the order of who may say: parameter file, --camera, the folder. Nothing: the format's
 /// own.
@@ -18,13 +26,8 @@ void choose_calibration(const fs::path& folder, const SequenceOptions& options, 
     sequence.calibration = calibration;
     sequence.calibration_source = std::move(source);
   };
-  if (!options.camera.empty()) {
-    if (const auto known = known_calibration(options.camera)) return take(*known, options.camera);
-    if (!fs::exists(options.camera)) {
-      throw InputError({"--camera", 0, "a camera.yaml, or tum-fr1, tum-fr2, tum-fr3",
-                        fmt::format("'{}', no such file", options.camera), "Check the path."});
-    }
-    return take(read_calibration(options.camera), options.camera);
+  if (!options.camera.empty() && !gives_numbers(options)) {
+    return take(read_named_calibration(options.camera), options.camera);
   }
   const fs::path own = folder / "camera.yaml";
   if (fs::exists(own)) take(read_calibration(own), own.string());
@@ -52,6 +55,19 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   if (is_euroc(folder)) return list_euroc(folder, options, sequence);
   if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
   fail_unknown_format(folder);
+}
+
+/// What the numbers of --camera do not state, as the baseline of a pair, stays; its distortion does not.
+CameraParameters camera_parameters(const SequenceOptions& options, Sequence& sequence) {
+  CameraParameters given = options.camera_parameters;
+  if (!gives_numbers(options)) return given;
+  const auto numbers = parse_camera_numbers(options.camera);
+  if (!sequence.calibration.raw_stereo)
+    sequence.calibration.camera = sequence.calibration.camera.undistorted();
+  for (const auto field : {&CameraParameters::fx, &CameraParameters::fy, &CameraParameters::cx,
+                           &CameraParameters::cy, &CameraParameters::scale})
+    if (!(given.*field)) given.*field = (*numbers).*field;
+  return given;
 }
 
 /// Parameters alone make a calibration, too: without distortion, of the images' size.
@@ -96,8 +112,18 @@ void check_calibration(const fs::path& folder, const Sequence& sequence) {
   if (has_depth && !sequence.calibration.depth) {
     throw InputError({sequence.calibration_source, 0,
                       "'depth: {scale: ...}', units per metre, as the sequence has depth images", "none",
-                      "Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark)."});
+                      "Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark), or a fifth "
+                      "number to --camera "
+                      "fx,fy,cx,cy."});
   }
+}
+
+/// Frames of lists have no numbers in their names: the first one is 1.
+bool is_listed(const std::vector<std::int64_t>& numbers, const Sequence& sequence, std::int64_t position) {
+  const bool by_list = sequence.format == "TUM" || sequence.format == "EuRoC";
+  const std::int64_t number =
+      by_list ? position + 1 : sequence.frames[static_cast<std::size_t>(position)].number;
+  return std::binary_search(numbers.begin(), numbers.end(), number);
 }
 
 void select_frames(const SequenceOptions& options, Sequence& sequence) {
@@ -106,9 +132,10 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
   for (std::int64_t i = 0; i < count; ++i) {
     const FrameFiles& files = sequence.frames[static_cast<std::size_t>(i)];
     if (options.frames && !contains(*options.frames, i, count)) continue;
+    if (options.frame_numbers && !is_listed(*options.frame_numbers, sequence, i)) continue;
     if (options.without && contains(*options.without, i, count)) continue;
     if (options.start_index && files.number < *options.start_index) continue;
-    if (options.end_index && files.number > *options.end_index) continue;
+    if (options.end_index && files.number >= *options.end_index) continue;
     kept.push_back(files);
     kept.back().position = i;
   }
@@ -151,7 +178,8 @@ Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
     sequence.calibration_source = chosen.calibration_source;
   }
   select_frames(options, sequence);
-  apply_parameters(options.camera_parameters, sequence);
+  apply_parameters(camera_parameters(options, sequence), sequence);
+  if (gives_numbers(options)) sequence.calibration_source = "--camera";
   check_calibration(folder, sequence);
   move_truth_to_camera(sequence);
   return sequence;
