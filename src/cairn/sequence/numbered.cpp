@@ -32,7 +32,7 @@ fs::path last_folder(const fs::path& path) {
 /// In the sequence's folder, else from where the program runs, as old parameter files have it. A file that
 /// was written elsewhere names folders that are not here; then the sequence's folder of that name is taken.
 fs::path resolve(const fs::path& folder, const std::string& name, const char* key, SequenceReport& report) {
-  const fs::path path(name), inside = folder / path, own = folder / last_folder(path);
+  fs::path path(name), inside = folder / path, own = folder / last_folder(path);
   if (!path.is_absolute() && fs::exists(inside)) return inside;
   if (fs::exists(path) || !fs::is_directory(own)) return path;
   report.warnings.push_back(
