@@ -4,45 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "cairn/core/error.h"
 #include "cairn/core/text.h"
 
 namespace cairn::app {
-namespace {
-
-Calibration pinhole_of(const std::string& text) {
-  const std::vector<double> numbers = parse_number_list(text, 4, "--camera", "fx,fy,cx,cy");
-  if (!(numbers[0] > 0 && numbers[1] > 0)) {
-    throw InputError(
-        {"--camera", 0, "focal lengths above 0", fmt::format("'{}'", text), "Give fx,fy,cx,cy in pixels."});
-  }
-  Calibration calibration;
-  calibration.camera.fx = numbers[0];
-  calibration.camera.fy = numbers[1];
-  calibration.camera.cx = numbers[2];
-  calibration.camera.cy = numbers[3];
-  return calibration;
-}
-
-}  // namespace
-
 Option add_camera_option(CommandLine& app, std::string& camera) {
   return app
       .add_option("--camera", camera,
                   "camera.yaml or the calibration of another program (OpenCV, ROS, Kalibr, COLMAP, "
-                  "RealSense, Open3D), "
-                  "or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
-      .type_name("FILE|NAME|fx,fy,cx,cy");
-}
-
-Calibration read_camera_argument(const std::string& camera) {
-  if (const auto known = known_calibration(camera)) return *known;
-  if (std::filesystem::exists(camera)) return read_calibration(camera);
-  if (camera.find(',') != std::string::npos) return pinhole_of(camera);
-  throw InputError({"--camera", 0, "a camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or fx,fy,cx,cy",
-                    fmt::format("'{}', no such file", camera), "Check the path."});
+                  "RealSense, Open3D), or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers")
+      .type_name("FILE|NAME|fx,fy,cx,cy[,scale]");
 }
 
 std::vector<double> parse_number_list(const std::string& text, std::size_t count, const std::string& option,

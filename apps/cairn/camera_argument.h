@@ -4,16 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "cairn/sequence/calibration.h"
 #include "common.h"
 
 namespace cairn::app {
 
-/// --camera FILE|NAME|fx,fy,cx,cy for commands that work on single images or lists of points.
+/// --camera FILE|NAME|fx,fy,cx,cy[,scale] for commands that work on single images or lists of points.
 Option add_camera_option(CommandLine& app, std::string& camera);
-
-/// What that option names; of four numbers a pinhole camera without a size. InputError for anything else.
-[[nodiscard]] Calibration read_camera_argument(const std::string& camera);
 
 /// Numbers separated by commas or blanks. InputError that names `option` unless there are `count`, all
 /// finite.

@@ -5,12 +5,15 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/dense/cloud_file.h"
 #include "cairn/image/codec.h"
 #include "cairn/report/fusion_report.h"
 #include "cairn/report/overview.h"
+#include "cairn/sequence/image_pair.h"
 #include "commands.h"
 #include "fusion.h"
 #include "recording_checks.h"
@@ -22,12 +25,14 @@ struct CloudArguments {
   CommonOptions common;
   SequenceArguments sequence;
   PoseArguments poses;
-  std::string output, picture;
+  std::string depth, output, picture;
   CloudOptions options;
 };
 
 void declare(CommandLine& app, CloudArguments& arguments) {
-  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence").required();
+  app.add_option("SEQ", arguments.sequence.folder, "folder with an RGB-D sequence, or one colour image")
+      .required();
+  app.add_option("DEPTH", arguments.depth, "the depth image of that colour image; needs --camera");
   app.add_option("-o", arguments.output, "the cloud, .ply or .pcd").type_name("FILE").required();
   add_pose_options(app, arguments.poses);
   app.add_option("--voxel", arguments.options.voxel_size, "metres; one point for each voxel of this size")
@@ -40,7 +45,9 @@ void declare(CommandLine& app, CloudArguments& arguments) {
       .type_name("PNG");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.threads = true});
-  app.footer("Example: cairn cloud demo/room --poses run/trajectory.txt -o room.ply");
+  app.footer(
+      "Example: cairn cloud demo/room --poses run/trajectory.txt -o room.ply\n"
+      "         cairn cloud rgb.png depth.png --camera 518,519,325.5,253.5,1000 -o pair.ply");
 }
 
 /// The path without the gaps where frames have no pose.
@@ -51,9 +58,31 @@ CameraPath path_of(const PosedSequence& posed) {
   return path;
 }
 
+/// Nothing that chooses frames or their poses has a meaning for two images.
+void check_pair(const CloudArguments& arguments) {
+  const auto& sequence = arguments.sequence;
+  for (const auto& [option, given] : {std::pair{"--poses", arguments.poses.path},
+                                      {"--frames", sequence.frames},
+                                      {"--without", sequence.without}}) {
+    if (!given.empty())
+      throw InputError({option, 0, "a sequence", "two images, which are one frame", "Leave it out."});
+  }
+  if (sequence.camera.empty())
+    throw InputError({"--camera", 0, "the camera of the two images", "none",
+                      "Give --camera fx,fy,cx,cy,scale or --camera FILE."});
+}
+
+/// The sequence, or two images, whose world is the camera's frame.
+PosedSequence open_input(const CloudArguments& arguments) {
+  if (arguments.depth.empty()) return open_posed_sequence(arguments.sequence, arguments.poses);
+  check_pair(arguments);
+  return {open_image_pair(arguments.sequence.folder, arguments.depth, arguments.sequence.camera),
+          {WorldFromCamera()}};
+}
+
 CloudReport build_cloud(const CloudArguments& arguments) {
   const Stopwatch watch;
-  const PosedSequence posed = open_posed_sequence(arguments.sequence, arguments.poses);
+  const PosedSequence posed = open_input(arguments);
   const auto progress = make_progress(arguments.common);
   check_recording(posed.sequence, *progress);
   const Executor executor(arguments.common.thread_count());
@@ -79,7 +108,11 @@ CloudReport build_cloud(const CloudArguments& arguments) {
 
 int run_cloud(int argc, char** argv) {
   CloudArguments arguments;
-  CommandLine app("One coloured cloud from all frames of a sequence whose poses are known.", "cloud");
+  CommandLine app(
+      "One coloured cloud from all frames of a sequence whose poses are known, or from one colour and one "
+      "depth "
+      "image.",
+      "cloud");
   declare(app, arguments);
   if (const auto code = app.parse(argc, argv)) return *code;
   arguments.options.validate();

@@ -10,7 +10,10 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
+
+#include "cairn/sequence/frame_list.h"
 
 namespace cairn::app {
 namespace {
@@ -120,7 +123,10 @@ void add_common_options(CommandLine& app, CommonOptions& options, const CommonOp
 SequenceOptions SequenceArguments::options() const {
   SequenceOptions result;
   result.camera = camera;
-  if (!frames.empty()) result.frames = parse_frame_range(frames, "--frames");
+  if (std::filesystem::is_regular_file(frames))
+    result.frame_numbers = read_frame_list(frames);
+  else if (!frames.empty())
+    result.frames = parse_frame_range(frames, "--frames");
   if (!without.empty()) result.without = parse_frame_range(without, "--without");
   return result;
 }
@@ -128,11 +134,14 @@ SequenceOptions SequenceArguments::options() const {
 void add_sequence_options(CommandLine& app, SequenceArguments& arguments) {
   app.add_option("--camera", arguments.camera,
                  "camera.yaml or the calibration of another program (OpenCV, ROS, Kalibr, COLMAP, RealSense, "
-                 "Open3D), or "
-                 "tum-fr1, tum-fr2, tum-fr3 (default: the sequence's own)")
-      .type_name("FILE|NAME");
-  app.add_option("--frames", arguments.frames, "only these frames, by position, end excluded")
-      .type_name("A:B[:S]");
+                 "Open3D), or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers, pixels and units of "
+                 "depth in a metre (default: the sequence's own)")
+      .type_name("FILE|NAME|fx,fy,cx,cy[,scale]");
+  app.add_option(
+         "--frames", arguments.frames,
+         "only these frames, by position, end excluded; or those that a file as keyframe.txt lists by "
+         "number, the last one of each line")
+      .type_name("A:B[:S]|FILE");
   app.add_option("--without", arguments.without, "all but these frames").type_name("A:B[:S]");
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cairn/sequence/parameter_file.h"
 #include "cairn/sequence/settings.h"
 
 namespace cairn::app {
@@ -29,6 +30,16 @@ void add_parameter_help(CommandLine& app, const std::string& examples, std::vect
         "{}\nParameters for --set and --config: name, default, accepted values and meaning\n\n{}", examples,
         format_as_text(rows()));
   });
+}
+
+void find_parameter_file(const std::string& folder, const SettingTable& table, CommonOptions& options) {
+  if (!options.config.empty()) return;
+  const ParameterFileSearch found = find_parameters(folder, table);
+  if (found.path.empty()) return;
+  const std::string path = found.path.string();
+  if (!found.is_taken) return print_warnings({fmt::format("{} is not taken: {}", path, found.reason)});
+  print_warnings({fmt::format("{} is taken for --config", path)});
+  options.config = path;
 }
 
 void apply_settings(const CommonOptions& options, const SettingTable& table) {

@@ -30,6 +30,11 @@ template <class Parameters>
 /// `examples` and the same rows.
 void add_parameter_help(CommandLine& app, const std::string& examples, std::vector<ParameterRow> (*rows)());
 
+/// Names the file of parameters that lies where the RGB-D tutorial has it, parameters.txt in the sequence's
+/// folder or where the program runs, if --config names none and its lines are parameters of `table`. One line
+/// on stderr says which it is, or why one that lies there is not taken.
+void find_parameter_file(const std::string& folder, const SettingTable& table, CommonOptions& options);
+
 /// Applies the settings of --config, then those of --set. Each use of the former name of a parameter, or of a
 /// retired one, is a warning on stderr. Throws InputError as SettingTable::apply and read_settings do.
 void apply_settings(const CommonOptions& options, const SettingTable& table);

@@ -10,6 +10,7 @@
 #include "cairn/geometry/camera_pose.h"
 #include "cairn/geometry/pnp_ransac.h"
 #include "cairn/report/pnp_report.h"
+#include "cairn/sequence/camera_numbers.h"
 #include "camera_argument.h"
 #include "commands.h"
 #include "named_values.h"
@@ -98,7 +99,7 @@ Observation observation_of(const TextFile& file, const TextLine& line, const Cam
 }
 
 PnpInput read_input(const PnpArguments& arguments) {
-  const Camera camera = read_camera_argument(arguments.camera).camera;
+  const Camera camera = read_named_calibration(arguments.camera).camera;
   const TextFile points(arguments.points), pixels(arguments.pixels);
   if (points.lines().size() != pixels.lines().size()) {
     throw InputError({arguments.pixels, 0,

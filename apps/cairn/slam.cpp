@@ -36,17 +36,20 @@ void declare(CommandLine& app, SlamArguments& arguments) {
   app.add_flag("--no-octree", arguments.no_octree, "write no octree");
   add_sequence_options(app, arguments.sequence);
   add_common_options(app, arguments.common, {.config = true, .threads = true, .seed = true});
-  add_parameter_help(app,
-                     "Example: cairn slam demo/room -o demo/run\n"
-                     "         cairn slam SEQ2 -o RUN2 --map RUN\n"
-                     "         cairn slam SEQ -o RUN --set features=1000 --set keyframe_threshold=0.2\n"
-                     "RUN/config.yaml holds the parameters of a run, for --config of another.\n",
-                     default_rows<SlamParameters>);
+  add_parameter_help(
+      app,
+      "Example: cairn slam demo/room -o demo/run\n"
+      "         cairn slam SEQ2 -o RUN2 --map RUN\n"
+      "         cairn slam SEQ -o RUN --set features=1000 --set keyframe_threshold=0.2\n"
+      "RUN/config.yaml holds the parameters of a run, for --config of another. Without --config, "
+      "parameters.txt in SEQ or where the program runs is taken, if there is one.\n",
+      default_rows<SlamParameters>);
 }
 
-SlamParameters gather_parameters(const SlamArguments& arguments) {
+SlamParameters gather_parameters(SlamArguments& arguments) {
   SlamParameters parameters;
   parameters.sequence = arguments.sequence.options();
+  find_parameter_file(arguments.sequence.folder, table_of(parameters), arguments.common);
   apply_settings(arguments.common, table_of(parameters));
   parameters.slam.seed = arguments.common.seed;
   parameters.slam.odometry = arguments.odometry;

@@ -15,6 +15,7 @@
 #include "cairn/matching/matching.h"
 #include "cairn/observe/depth_scale.h"
 #include "cairn/report/two_view_report.h"
+#include "cairn/sequence/camera_numbers.h"
 #include "camera_argument.h"
 #include "commands.h"
 #include "feature_arguments.h"
@@ -172,7 +173,7 @@ int reconstruct(TwoViewArguments& arguments) {
     throw InputError({"A and B", 0, "two images and --camera, or --essential", "none",
                       "'cairn two-view --help' has an example."});
   }
-  const Calibration calibration = read_camera_argument(arguments.camera);
+  const Calibration calibration = read_named_calibration(arguments.camera);
   const Executor executor(arguments.common.thread_count());
   const auto extractor = arguments.extractor();
   const TimedFeatures a = extract_timed(arguments.first, arguments, *extractor, executor);

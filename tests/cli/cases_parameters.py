@@ -13,7 +13,7 @@ import unittest
 from pathlib import Path
 
 from harness import Case, CommandLine, main
-from inputs import file, tum_sequence
+from inputs import file, png_bytes, tum_sequence
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = {"slam": "README.md", "localize": "README.md", "map": "docs/mapping.md"}
@@ -21,7 +21,7 @@ DOCUMENTS = {"slam": "README.md", "localize": "README.md", "map": "docs/mapping.
 # Former name, present name, a value.
 RENAMED = (("max_norm", "max_motion", 2), ("max_norm_lp", "max_loop_motion", 3), ("min_good_match", "min_matches", 20),
            ("good_match_threshold", "max_distance_factor", 10), ("check_loop_closure", "close_loops", "yes"),
-           ("weak_tracking", "weak_inliers", 80))
+           ("weak_tracking", "weak_inliers", 80), ("number_of_features", "features", 700), ("max_num_lost", "lost_frames", 10))
 
 
 def parameter_file(lines):
@@ -95,7 +95,79 @@ def no_sequence(name, parameters, says, given=(), messages=1):
     return Case(name, f"slam no -o run {parameters}", says, given, messages=messages)
 
 
+# The lines of the RGB-D tutorial's file that are no names of today, as they are written.
+TUTORIAL = """\
+# \u53c2\u6570
+detector=ORB
+descriptor=ORB
+good_match_threshold=10
+camera.cx=31.5;
+camera.cy=23.5;
+camera.fx=50.0;
+camera.fy=50.0;
+camera.scale=1000.0;
+start_index=1
+end_index=3
+rgb_dir=/home/another/rgb_png/
+rgb_extension=.png
+depth_dir=../data/depth_png/
+depth_extension=.png
+voxel_grid=0.01
+visualize_pointcloud=yes
+min_good_match=10 \u6700\u5c11
+min_inliers=5
+max_norm=0.2
+keyframe_threshold=0.1
+max_norm_lp=2.0
+check_loop_closure=yes
+nearby_loops=5
+random_loops=5
+"""
+BOOK = """\
+%YAML:1.0
+dataset_dir: /home/another/fr1_desk
+camera.fx: 50
+camera.fy: 50
+camera.cx: 31.5
+camera.cy: 23.5
+camera.depth_scale: 1000
+number_of_features: 500
+scale_factor: 1.2
+level_pyramid: 4
+match_ratio: 2.0
+max_num_lost: 10
+min_inliers: 30
+keyframe_rotation: 0.1
+keyframe_translation: 0.1
+map_point_erase_ratio: 0.1
+"""
+
+
+def numbered_sequence(root):
+    """Files 1 to 3 in the folders of the tutorial, without a calibration."""
+    for number in (1, 2, 3):
+        file(f"seq/rgb_png/{number}.png", png_bytes())(root)
+        file(f"seq/depth_png/{number}.png", png_bytes(kind="gray16", value=2000))(root)
+
+
 CASES = [
+    # files of others
+    Case("the tutorial's file is found and runs unchanged", "slam seq -o run --no-cloud --no-octree",
+         ("seq/parameters.txt is taken for --config", "'visualize_pointcloud' changes nothing", "rgb_dir '/home/another/rgb_png/' is no folder here"),
+         (numbered_sequence, file("seq/parameters.txt", TUTORIAL)), code=0, prints=("2 of 2 tracked",), leaves=("run",)),
+    Case("slambook's file", "slam seq -o run --config default.yaml --no-cloud --no-octree",
+         ("default.yaml:2: 'dataset_dir' changes nothing", "'camera.depth_scale' is now called 'camera.scale'", "between any two of 3 frames"),
+         (tum_sequence(), file("default.yaml", BOOK)), code=1, leaves=("run",)),
+    Case("two images become a cloud", "cloud seq/rgb/0.png seq/depth/0.png --camera 50,50,31.5,23.5,1000 -o pair.ply", given=(tum_sequence(),), code=0,
+         prints=("1 of 1 fused",), leaves=("pair.ply",)),
+    Case("two images without scale", "cloud seq/rgb/0.png seq/depth/0.png --camera 50,50,31.5,23.5 -o pair.ply",
+         ("--camera: expected the scale of the depth image",), (tum_sequence(),)),
+    Case("two images without camera", "cloud seq/rgb/0.png seq/depth/0.png -o pair.ply", ("--camera: expected the camera of the two images",),
+         (tum_sequence(),)),
+    Case("two images with poses", "cloud seq/rgb/0.png seq/depth/0.png --camera tum-fr1 --poses p.txt -o pair.ply",
+         ("--poses: expected a sequence, found two images",), (tum_sequence(),)),
+    Case("parameters.txt of another program", "slam no -o run", ("parameters.txt is not taken: 'epochs' in line 1 is no parameter", "no: expected a folder"),
+         (file("parameters.txt", "epochs=100\n"),), messages=2),
     # former names
     no_sequence("former name", "--set max_norm=2", ("cairn: --set: 'max_norm' is now called 'max_motion'; both are accepted.\n",), messages=2),
     no_sequence("former names in a file", "--quiet --config p.yaml",

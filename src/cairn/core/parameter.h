@@ -45,11 +45,12 @@ struct Parameter {
   const char* remedy = "Leave it out for the default.";  ///< for a value out of range, a whole sentence
 };
 
-/// Describes a parameter that no longer exists. A file may still set it to the value that means its absence.
+/// Describes a parameter that no longer exists, or that other programs have. A file may still set it to the
+/// value that means its absence, and one of other programs to any value.
 struct RetiredParameter {
   const char* name;
-  const char* accepted;  ///< the value that changes nothing, e.g. "no"
-  const char* reason;    ///< why it was removed, a clause: "it improved no recording"
+  const char* accepted;  ///< the value that changes nothing, e.g. "no"; empty: any value
+  const char* reason;    ///< why it was removed, or is not needed, a clause: "it improved no recording"
 };
 
 /// Receives the parameters of an options struct, each once, from the struct's `visit(options, visitor)`.

@@ -59,7 +59,8 @@ void visit(FeatureOptions& options, ParameterVisitor& visitor) {
   visitor.parameter({"descriptor", any("a name"),
                      "The same names, and ROOTSIFT, which describes the features of the detector SIFT."},
                     options.descriptor);
-  visitor.parameter({"features", at_least(1, "feature per image"), "Most features taken of an image."},
+  visitor.parameter({"features", at_least(1, "feature per image"), "Most features taken of an image.",
+                     "number_of_features"},
                     options.count);
   visitor.parameter(
       {"contrast", above(0, "a share of the grey range"),

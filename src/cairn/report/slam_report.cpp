@@ -53,6 +53,23 @@ Json loops_json(const LoopReport& loops) {
           {"parts_joined", loops.components_joined}};
 }
 
+Rigid3 world_from_frame(const Map& map, const TrackingResult& track) {
+  return map.world_from_camera(*track.reference) * track.reference_from_frame;
+}
+
+/// The motion since the last tracked frame, and its size since that frame's keyframe; empty without one in
+/// the same component.
+std::string motion_columns(const Map& map, const TrackingResult* last, const TrackingResult& track) {
+  if (last == nullptr || !track.tracked() ||
+      map.component_of(*last->reference) != map.component_of(*track.reference))
+    return ",,,";
+  const Rigid3 pose = world_from_frame(map, track);
+  const Rigid3 motion = world_from_frame(map, *last).inverse() * pose;
+  const Rigid3 since_keyframe = map.world_from_camera(*last->reference).inverse() * pose;
+  return fmt::format("{:.6f},{:.6f},{:.6f},{:.6f}", rotation_angle(motion.rotation),
+                     motion.translation.norm(), motion_norm(motion), motion_norm(since_keyframe));
+}
+
 }  // namespace
 
 std::string format_slam_json(const Sequence& sequence, const SlamResult& result, const SlamSummary& summary) {
@@ -86,14 +103,18 @@ std::string format_slam_json(const Sequence& sequence, const SlamResult& result,
 }
 
 std::string format_frames_csv(const SlamResult& result) {
-  std::string text = "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n";
+  std::string text =
+      "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers,rotation_rad,translation_m,"
+      "motion,motion_since_keyframe\n";
+  const TrackingResult* last = nullptr;
   for (const TrackingResult& track : result.frames) {
     const std::string component =
         track.reference ? fmt::format("{}", result.map.component_of(*track.reference)) : "";
     const std::string reference = track.reference ? fmt::format("{}", track.reference->value) : "";
-    text += fmt::format("{},{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
+    text += fmt::format("{},{},{},{},{},{},{},{},{}\n", track.frame.value, format_stamp(track.stamp_ns),
                         to_string(track.status), track.relocalized ? 1 : 0, component, reference,
-                        track.matches, track.inliers);
+                        track.matches, track.inliers, motion_columns(result.map, last, track));
+    if (track.tracked()) last = &track;
   }
   return text;
 }

@@ -35,7 +35,9 @@ struct SlamSummary {
 [[nodiscard]] std::string format_slam_text(const Sequence& sequence, const SlamResult& result,
                                            const SlamSummary& summary);
 
-/// Returns frames.csv: a line of names, then one row for each frame that was decoded: what became of it.
+/// Returns frames.csv: a line of names, then one row for each frame that was decoded: what became of it, the
+/// motion since the frame before that was tracked, and its size, rad + m, as max_motion limits it, and that
+/// since the keyframe which was the last one then, as keyframe_threshold does.
 [[nodiscard]] std::string format_frames_csv(const SlamResult& result);
 
 /// Returns the path of the camera through the main component of the map, with its keyframes, for

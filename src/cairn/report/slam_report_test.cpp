@@ -68,15 +68,18 @@ TEST_F(SlamRun, says_how_sure_the_last_keyframe_is) {
 }
 
 TEST_F(SlamRun, has_a_row_for_each_frame) {
-  EXPECT_EQ(format_frames_csv(result),
-            "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers\n"
-            "0,0.000000000,keyframe,0,0,0,50,40\n"
-            "1,0.500000000," +
-                std::string(to_string(TrackingStatus::tracked)) +
-                ",0,0,0,50,41\n2,1.000000000,keyframe,0,0,1,50,42\n3,1.500000000," +
-                std::string(to_string(TrackingStatus::lost)) + ",0,,,3,0\n4,2.000000000," +
-                std::string(to_string(TrackingStatus::implausible)) +
-                ",0,,,3,0\n5,2.500000000,keyframe,1,1,2,50,45\n");
+  EXPECT_EQ(
+      format_frames_csv(result),
+      "frame,stamp_s,outcome,relocalized,part,reference_keyframe,matches,inliers,rotation_rad,translation_m,"
+      "motion,motion_since_keyframe\n"
+      "0,0.000000000,keyframe,0,0,0,50,40,,,,\n"
+      "1,0.500000000," +
+          std::string(to_string(TrackingStatus::tracked)) +
+          ",0,0,0,50,41,0.000000,0.500000,0.500000,0.500000\n"
+          "2,1.000000000,keyframe,0,0,1,50,42,0.000000,0.500000,0.500000,1.000000\n3,1.500000000," +
+          std::string(to_string(TrackingStatus::lost)) + ",0,,,3,0,,,,\n4,2.000000000," +
+          std::string(to_string(TrackingStatus::implausible)) +
+          ",0,,,3,0,,,,\n5,2.500000000,keyframe,1,1,2,50,45,,,,\n");
 }
 
 TEST_F(SlamRun, is_told_in_text) {

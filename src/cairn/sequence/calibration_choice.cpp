@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/sequence/calibration_choice.h"
 
-#include <fmt/format.h>
-
 #include "cairn/core/error.h"
 #include "cairn/sequence/calibration_formats.h"
+#include "cairn/sequence/camera_numbers.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn {
@@ -19,14 +18,9 @@ void take_file(const fs::path& path, ChosenCalibration& chosen) {
 }
 
 void take_named(const std::string& camera, ChosenCalibration& chosen) {
-  if (const auto known = known_calibration(camera)) {
-    chosen.whole = known;
-    chosen.source = camera;
-    return;
-  }
-  if (fs::exists(camera)) return take_file(camera, chosen);
-  throw InputError({"--camera", 0, "a camera.yaml, or tum-fr1, tum-fr2, tum-fr3",
-                    fmt::format("'{}', no such file", camera), "Check the path."});
+  if (!known_calibration(camera) && fs::exists(camera)) return take_file(camera, chosen);
+  chosen.whole = read_named_calibration(camera);
+  chosen.source = camera;
 }
 
 /// KITTI's and EuRoC's, which say more than a file that happens to lie beside them.
@@ -56,7 +50,7 @@ ChosenCalibration choose_calibration(const fs::path& folder, const SequenceOptio
   ChosenCalibration chosen;
   const fs::path own = folder / "camera.yaml";
   if (fs::exists(own)) chosen.addition = read_calibration_addition(own);
-  if (!options.camera.empty())
+  if (!options.camera.empty() && !gives_numbers(options.camera))
     take_named(options.camera, chosen);
   else if (fs::exists(own) && !chosen.addition)
     take_file(own, chosen);

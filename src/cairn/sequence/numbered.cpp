@@ -24,11 +24,20 @@ const std::array<FolderPair, 5> kHabits{{{"rgb_index", "dep_index"},
                                          {"color", "depth"},
                                          {"image", "depth"}}};
 
-/// In the sequence's folder, else from where the program runs, as old parameter files have it.
-fs::path resolve(const fs::path& folder, const std::string& name) {
-  const fs::path path(name);
-  const bool from_here = path.is_absolute() || !fs::exists(folder / path);
-  return from_here ? path : folder / path;
+/// The last folder that a path names, with or without a slash after it.
+fs::path last_folder(const fs::path& path) {
+  return path.has_filename() ? path.filename() : path.parent_path().filename();
+}
+
+/// In the sequence's folder, else from where the program runs, as old parameter files have it. A file that
+/// was written elsewhere names folders that are not here; then the sequence's folder of that name is taken.
+fs::path resolve(const fs::path& folder, const std::string& name, const char* key, SequenceReport& report) {
+  fs::path path(name), inside = folder / path, own = folder / last_folder(path);
+  if (!path.is_absolute() && fs::exists(inside)) return inside;
+  if (fs::exists(path) || !fs::is_directory(own)) return path;
+  report.warnings.push_back(
+      fmt::format("{} '{}' is no folder here; '{}' is taken instead", key, name, own.string()));
+  return own;
 }
 
 std::string without_dot(const std::string& extension) {
@@ -78,7 +87,7 @@ void read_numbered_truth(const fs::path& path, Sequence& sequence) {
   for (StampedPose& pose : file.poses)
     pose.stamp_ns = stamp_of_number(pose.stamp_ns, sequence.calibration.stamp_rate_hz());
   sequence.truth = std::move(file.poses);
-  sequence.report.warnings = std::move(file.warnings);
+  sequence.report.warnings.insert(sequence.report.warnings.end(), file.warnings.begin(), file.warnings.end());
 }
 
 }  // namespace
@@ -91,8 +100,10 @@ void list_numbered(const fs::path& folder, const SequenceOptions& options, Seque
   sequence.format = "numbered";
   sequence.has_times = sequence.calibration.rate_hz.has_value();
   const FolderPair names = folders(folder, options).value();
-  const auto color = numbered_files(resolve(folder, names.color), options.rgb_extension);
-  const auto depth = numbered_files(resolve(folder, names.depth), options.depth_extension);
+  const auto color =
+      numbered_files(resolve(folder, names.color, "rgb_dir", sequence.report), options.rgb_extension);
+  const auto depth =
+      numbered_files(resolve(folder, names.depth, "depth_dir", sequence.report), options.depth_extension);
   for (const auto& [number, path] : color) {
     const auto partner = depth.find(number);
     if (partner == depth.end()) continue;

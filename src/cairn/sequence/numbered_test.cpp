@@ -88,6 +88,21 @@ TEST_F(NumberedTest, folders_and_extensions_may_be_named) {
   EXPECT_EQ(open_sequence(folder_, options).frames[0].color, folder_ / "left/1.png");
 }
 
+TEST_F(NumberedTest, folders_of_another_machine_are_looked_for_in_the_sequence) {
+  SequenceOptions options;
+  options.rgb_dir = "/home/another/data/rgb_index/";
+  options.depth_dir = "../data/dep_index";
+  const Sequence sequence = open_sequence(folder_, options), plain = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), plain.frames.size());
+  EXPECT_EQ(sequence.frames[0].color, plain.frames[0].color);
+  EXPECT_EQ(sequence.frames[0].depth, plain.frames[0].depth);
+  EXPECT_EQ(sequence.report.warnings,
+            (std::vector<std::string>{"rgb_dir '/home/another/data/rgb_index/' is no folder here; '" +
+                                          (folder_ / "rgb_index").string() + "' is taken instead",
+                                      "depth_dir '../data/dep_index' is no folder here; '" +
+                                          (folder_ / "dep_index").string() + "' is taken instead"}));
+}
+
 TEST_F(NumberedTest, one_folder_alone_is_refused) {
   SequenceOptions options;
   options.rgb_dir = "rgb_index";

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cairn/core/error.h"
 #include "cairn/sequence/calibration_choice.h"
+#include "cairn/sequence/camera_numbers.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn {
@@ -34,6 +37,19 @@ void list_frames(const fs::path& folder, const SequenceOptions& options, Sequenc
   if (is_euroc(folder)) return list_euroc(folder, options, sequence);
   if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
   fail_unknown_format(folder);
+}
+
+/// What the numbers of --camera do not state, as the baseline of a pair, stays; its distortion does not.
+CameraParameters camera_parameters(const SequenceOptions& options, Sequence& sequence) {
+  CameraParameters given = options.camera_parameters;
+  if (!gives_numbers(options.camera)) return given;
+  const auto numbers = parse_camera_numbers(options.camera);
+  if (!sequence.calibration.raw_stereo)
+    sequence.calibration.camera = sequence.calibration.camera.undistorted();
+  for (const auto field : {&CameraParameters::fx, &CameraParameters::fy, &CameraParameters::cx,
+                           &CameraParameters::cy, &CameraParameters::scale})
+    if (!(given.*field)) given.*field = (*numbers).*field;
+  return given;
 }
 
 /// Parameters alone make a calibration, too: without distortion, of the images' size.
@@ -80,8 +96,16 @@ void check_calibration(const fs::path& folder, const Sequence& sequence) {
         {sequence.calibration_source, 0,
          "'depth: {scale: ...}', units per metre, as the sequence has depth images", "none",
          "Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark), of another program's "
-         "calibration in a camera.yaml with 'depth' alone, or by --set camera.scale=1000."});
+         "calibration in a camera.yaml with 'depth' alone, or a fifth number to --camera fx,fy,cx,cy."});
   }
+}
+
+/// Frames of lists have no numbers in their names: the first one is 1.
+bool is_listed(const std::vector<std::int64_t>& numbers, const Sequence& sequence, std::int64_t position) {
+  const bool by_list = sequence.format == "TUM" || sequence.format == "EuRoC";
+  const std::int64_t number =
+      by_list ? position + 1 : sequence.frames[static_cast<std::size_t>(position)].number;
+  return std::binary_search(numbers.begin(), numbers.end(), number);
 }
 
 void select_frames(const SequenceOptions& options, Sequence& sequence) {
@@ -90,9 +114,10 @@ void select_frames(const SequenceOptions& options, Sequence& sequence) {
   for (std::int64_t i = 0; i < count; ++i) {
     const FrameFiles& files = sequence.frames[static_cast<std::size_t>(i)];
     if (options.frames && !contains(*options.frames, i, count)) continue;
+    if (options.frame_numbers && !is_listed(*options.frame_numbers, sequence, i)) continue;
     if (options.without && contains(*options.without, i, count)) continue;
     if (options.start_index && files.number < *options.start_index) continue;
-    if (options.end_index && files.number > *options.end_index) continue;
+    if (options.end_index && files.number >= *options.end_index) continue;
     kept.push_back(files);
     kept.back().position = i;
   }
@@ -132,7 +157,8 @@ Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
   list_frames(folder, options, sequence);
   chosen.apply(sequence);  // goes before what the format carries
   select_frames(options, sequence);
-  apply_parameters(options.camera_parameters, sequence);
+  apply_parameters(camera_parameters(options, sequence), sequence);
+  if (gives_numbers(options.camera)) sequence.calibration_source = "--camera";
   check_calibration(folder, sequence);
   move_truth_to_camera(sequence);
   return sequence;

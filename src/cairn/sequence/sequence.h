@@ -70,13 +70,19 @@ struct CameraParameters {
 
 /// Sets how a sequence is read and which of its frames are used.
 struct SequenceOptions {
-  std::string camera;  ///< path of a camera.yaml, or tum-fr1|tum-fr2|tum-fr3; empty: the sequence's own
+  /// Path of a camera.yaml, or tum-fr1|tum-fr2|tum-fr3, or the numbers fx,fy,cx,cy[,scale] of a pinhole
+  /// camera of the images' size; empty: the sequence's own.
+  std::string camera;
   CameraParameters camera_parameters;  ///< take precedence over the calibration
   std::string rgb_dir, rgb_extension;  ///< of numbered files; empty: the usual ones
   std::string depth_dir, depth_extension;
-  std::optional<std::int64_t> start_index, end_index;  ///< file numbers, inclusive
+  std::optional<std::int64_t> start_index;  ///< file number of the first frame
+  std::optional<std::int64_t> end_index;    ///< file number of the first frame that is left out
   double max_stamp_gap_s = 0.02;  ///< TUM, EuRoC: largest difference of an associated pair (as the TUM tools)
-  std::optional<FrameRange> frames;   ///< frames to use; nullopt: all
+  std::optional<FrameRange> frames;  ///< frames to use; nullopt: all
+  /// Numbers of the files to use, increasing; of TUM and EuRoC lists the numbers of the frames, the first
+  /// is 1.
+  std::optional<std::vector<std::int64_t>> frame_numbers;
   std::optional<FrameRange> without;  ///< frames to leave out; nullopt: none
 };
 

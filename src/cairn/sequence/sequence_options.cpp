@@ -21,14 +21,16 @@ void visit(CameraParameters& camera, ParameterVisitor& visitor) {
       {"camera.cy", any("pixels"), "Row of the principal point; overrides the calibration.", "", kRemedy},
       camera.cy);
   visitor.parameter({"camera.scale", above(0, "units per metre"),
-                     "Scale of the depth images; overrides the calibration.", "", kRemedy},
+                     "Scale of the depth images; overrides the calibration.", "camera.depth_scale", kRemedy},
                     camera.scale);
 }
 
 void visit_files(SequenceOptions& options, ParameterVisitor& visitor) {
   visitor.parameter({"start_index", any("a file number"), "First file, itself included."},
                     options.start_index);
-  visitor.parameter({"end_index", any("a file number"), "Last file, itself included."}, options.end_index);
+  visitor.parameter({"end_index", any("a file number"),
+                     "First file that is left out, as in the RGB-D tutorial: the last one is end_index - 1."},
+                    options.end_index);
   visitor.parameter({"rgb_dir", any("a folder"),
                      "Numbered colour images, relative to the sequence or to where cairn runs."},
                     options.rgb_dir);

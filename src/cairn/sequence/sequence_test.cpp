@@ -56,10 +56,10 @@ TEST_F(SequenceTest, frames_and_without_are_positions) {
   EXPECT_EQ(numbers(options), (Numbers{100}));
 }
 
-TEST_F(SequenceTest, start_and_end_are_numbers_and_both_included) {
+TEST_F(SequenceTest, start_and_end_are_numbers_and_the_end_is_left_out) {
   SequenceOptions options;
   options.start_index = 115;
-  options.end_index = 140;
+  options.end_index = 150;
   EXPECT_EQ(numbers(options), (Numbers{120, 130, 140}));
   options.frames = parse_frame_range("-7:", "--frames");
   EXPECT_EQ(numbers(options), (Numbers{130, 140}));
@@ -90,7 +90,8 @@ TEST_F(SequenceTest, a_camera_that_is_not_there_is_refused_with_the_known_names)
   SequenceOptions options;
   options.camera = "tum-fr4";
   EXPECT_EQ(refusal(options),
-            "--camera: expected a camera.yaml, or tum-fr1, tum-fr2, tum-fr3, found 'tum-fr4', no such file.\n"
+            "--camera: expected a camera.yaml, or tum-fr1, tum-fr2, tum-fr3, or fx,fy,cx,cy[,scale], found "
+            "'tum-fr4', no such file.\n"
             "  Check the path.");
 }
 
@@ -139,8 +140,8 @@ TEST_F(SequenceTest, depth_without_a_scale_is_refused) {
             (folder_ / "camera.yaml").string() +
                 ": expected 'depth: {scale: ...}', units per metre, as the sequence has depth images, "
                 "found none.\n  Add it (1000 where depth is in millimetres, 5000 for the TUM benchmark), of "
-                "another "
-                "program's calibration in a camera.yaml with 'depth' alone, or by --set camera.scale=1000.");
+                "another program's calibration in a camera.yaml with 'depth' alone, or a fifth number to "
+                "--camera fx,fy,cx,cy.");
 }
 
 TEST_F(SequenceTest, what_is_no_sequence_is_refused) {

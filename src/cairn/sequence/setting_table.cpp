@@ -58,6 +58,17 @@ bool means_the_same(const std::string& a, const std::string& b) {
   return a == b || (are_truths && truth_of_a == truth_of_b);
 }
 
+/// Returns the value of a line without the words that follow it; the whole value if a number follows.
+std::string without_remark(const std::string& value) {
+  const auto ends = [](char c) { return c == ' ' || c == '\t' || c == ';' || (c & '\x80') != 0; };
+  const auto begins_number = [](char c) {
+    return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
+  };
+  const auto end = std::find_if(value.begin(), value.end(), ends);
+  const auto next = std::find_if(end, value.end(), [](char c) { return c != ' ' && c != '\t' && c != ';'; });
+  return next != value.end() && begins_number(*next) ? value : std::string(value.begin(), end);
+}
+
 template <class T>
 std::string format_optional(const std::optional<T>& value) {
   return value ? fmt::format("{}", *value) : "";
@@ -102,6 +113,8 @@ void SettingTable::parameter(const Parameter& parameter, std::string& value) {
       parameter, "a text", [&value](const std::string& text) { return value = text, true; },
       [&value] { return value; });
   entry.is_text = true;
+  entry.is_word = parameter.range.unit == std::string_view("a name") ||
+                  parameter.range.unit == std::string_view("a file extension");
 }
 
 void SettingTable::parameter(const Parameter& parameter, std::optional<double>& value) {
@@ -146,19 +159,37 @@ void SettingTable::fail_unknown(const Setting& setting) const {
        fmt::format("Did you mean '{}'?", nearest == nullptr ? std::string() : nearest->row.name)});
 }
 
+bool SettingTable::knows(const std::string& name) const {
+  return find(name) != nullptr || find_retired(name) != nullptr;
+}
+
+/// A text of several words, as the path of a folder, has no remark.
+bool SettingTable::set(const Entry& entry, const Setting& setting) {
+  if (setting.may_have_remark && (entry.is_word || !entry.is_text) &&
+      entry.set(without_remark(setting.value)))
+    return true;
+  return entry.set(setting.value);
+}
+
+std::string SettingTable::apply_retired(const Retired& retired, const Setting& setting) {
+  const std::string place = place_of(setting);
+  if (retired.accepted.empty())
+    return fmt::format("{}: '{}' changes nothing: {}.", place, setting.key, retired.reason);
+  const std::string value = setting.may_have_remark ? without_remark(setting.value) : setting.value;
+  if (means_the_same(value, retired.accepted))
+    return fmt::format("{}: '{}' was removed, as {}; '{}' is accepted and changes nothing.", place,
+                       setting.key, retired.reason, value);
+  throw InputError({setting.source, setting.line,
+                    fmt::format("'{}' for '{}', which was removed", retired.accepted, setting.key),
+                    fmt::format("'{}'", value),
+                    fmt::format("Leave it out: it was removed, as {}.", retired.reason)});
+}
+
 std::string SettingTable::apply(const Setting& setting) const {
-  if (const Retired* retired = find_retired(setting.key)) {
-    if (means_the_same(setting.value, retired->accepted))
-      return fmt::format("{}: '{}' was removed, as {}; '{}' is accepted and changes nothing.",
-                         place_of(setting), setting.key, retired->reason, setting.value);
-    throw InputError({setting.source, setting.line,
-                      fmt::format("'{}' for '{}', which was removed", retired->accepted, setting.key),
-                      fmt::format("'{}'", setting.value),
-                      fmt::format("Leave it out: it was removed, as {}.", retired->reason)});
-  }
+  if (const Retired* retired = find_retired(setting.key)) return apply_retired(*retired, setting);
   const Entry* entry = find(setting.key);
   if (entry == nullptr) fail_unknown(setting);
-  if (!entry->set(setting.value))
+  if (!set(*entry, setting))
     throw InputError({setting.source, setting.line, fmt::format("{} for '{}'", entry->expected, setting.key),
                       fmt::format("'{}'", setting.value), "Correct the value."});
   if (entry->row.name == setting.key) return "";

@@ -28,8 +28,12 @@ class SettingTable : public ParameterVisitor {
   /// Sets the field that the setting names; a field keeps its value if an error is thrown. Returns a warning
   /// for a person if the name is a former one or that of a retired parameter, else an empty text. Throws
   /// InputError with file and line for an unknown name, naming the nearest known one, for a value of another
-  /// type, and for a retired parameter that is set to anything but the accepted value.
+  /// type (of a line `key=value` counts what stands before the first blank, semicolon or character beyond
+  /// ASCII, unless a number follows), and for a retired parameter that is set to anything but the accepted
+  /// value.
   [[nodiscard]] std::string apply(const Setting& setting) const;
+  /// Tells whether `name` is that of a parameter, a former one or that of a retired one.
+  [[nodiscard]] bool knows(const std::string& name) const;
   /// Returns all names with their present values as YAML that read_settings reads; leaves out fields without
   /// a value.
   [[nodiscard]] std::string format() const;
@@ -42,6 +46,7 @@ class SettingTable : public ParameterVisitor {
     std::string former_name;  // empty: none
     std::string expected;     // the kind of value, for messages
     bool is_text = false;
+    bool is_word = false;                         // a text without blanks
     std::function<bool(const std::string&)> set;  // false: not of that kind
     std::function<std::string()> value;           // empty: none
   };
@@ -52,6 +57,8 @@ class SettingTable : public ParameterVisitor {
   Entry& add(const Parameter& parameter, const std::string& expected,
              std::function<bool(const std::string&)> set, std::function<std::string()> value);
   [[nodiscard]] const Entry* find(const std::string& name) const;
+  [[nodiscard]] static bool set(const Entry& entry, const Setting& setting);
+  [[nodiscard]] static std::string apply_retired(const Retired& retired, const Setting& setting);
   [[nodiscard]] const Retired* find_retired(const std::string& name) const;
   [[noreturn]] void fail_unknown(const Setting& setting) const;
 

@@ -24,6 +24,7 @@ std::string_view trim(std::string_view text) {
 /// A line without its comment, its semicolon and the blanks around.
 std::string_view content_of(std::string_view line) {
   line = trim(line.substr(0, line.find('#')));
+  if (line.starts_with(';') || line.starts_with("//")) return {};
   if (line.ends_with(';')) line = trim(line.substr(0, line.size() - 1));
   return line;
 }
@@ -63,6 +64,7 @@ std::vector<Setting> read_lines(std::string_view text, const std::string& source
     begin = end + 1;
     if (line.empty()) continue;
     settings.push_back(setting_of(line, source, number));
+    settings.back().may_have_remark = true;
   }
   return settings;
 }
@@ -100,8 +102,10 @@ std::string place_of(const Setting& setting) {
 
 std::vector<Setting> read_settings(const std::filesystem::path& path) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // some editors write it before UTF-8
+  constexpr std::string_view kOpenCvDirective = "%YAML:";
   std::string text = read_file(path);
   if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  if (text.starts_with(kOpenCvDirective)) text[0] = '#';  // no YAML, which wants a blank and a line ---
   return is_yaml(text) ? read_yaml(text, path.string()) : read_lines(text, path.string());
 }
 

@@ -80,14 +80,49 @@ TEST_F(SettingsTest, yaml_whose_first_value_has_an_equals_sign) {
 
 TEST_F(SettingsTest, lines_of_key_and_value) {
   const Fields fields = read(
-      "# parameters\n\n  # more\nthreshold=2.25;\ncount = 7 # features\r\ncheck=no ; \t\ndetector = a: b\n"
+      "# parameters\n\n  # more\nthreshold=2.25;\ncount = 7 # features\r\ncheck=no ; \t\ndetector = a:b\n"
       "camera.fx=518;# px\nstart_index=-3");
   EXPECT_EQ(fields.threshold, 2.25);
   EXPECT_EQ(fields.count, 7);
   EXPECT_FALSE(fields.check);
-  EXPECT_EQ(fields.detector, "a: b");
+  EXPECT_EQ(fields.detector, "a:b");
   EXPECT_EQ(fields.fx, 518);
   EXPECT_EQ(fields.start, -3);
+}
+
+/// As parameter files of RGB-D SLAM programs have them.
+TEST_F(SettingsTest, words_may_follow_the_value_of_a_line) {
+  const Fields fields = read(
+      "; old style\n// and older\ncount=10 \xE6\x9C\x80\xE5\xB0\x91 features\nthreshold=2.5; px\n"
+      "check=yes\xEF\xBC\x8C"
+      "always\ndetector=SIFT \xE7\x89\xB9\n");
+  EXPECT_EQ(fields.count, 10);
+  EXPECT_EQ(fields.threshold, 2.5);
+  EXPECT_TRUE(fields.check);
+  EXPECT_EQ(fields.detector, "SIFT");
+}
+
+TEST_F(SettingsTest, a_second_number_is_no_remark) {
+  for (const char* text : {"count=10 20", "count=10; 20", "threshold=1 .5", "threshold=2 -3"})
+    EXPECT_THROW((void)read(text), InputError) << text;
+  EXPECT_THROW((void)read("count: 10 features"), InputError) << "YAML has comments";
+}
+
+TEST_F(SettingsTest, a_folder_may_have_blanks) {
+  Fields fields;
+  SettingTable table = table_of(fields);
+  std::string folder;
+  table.parameter({"rgb_dir", any("a folder"), "Where."}, folder);
+  for (const Setting& setting : read_settings(write("settings", "rgb_dir=/my pictures/rgb;\n")))
+    (void)table.apply(setting);
+  EXPECT_EQ(folder, "/my pictures/rgb");
+}
+
+TEST_F(SettingsTest, the_first_line_of_opencv_is_no_setting) {
+  const Fields fields = read("%YAML:1.0\n# data\ncamera.fx: 517.3\ncount: 500\n");
+  EXPECT_EQ(fields.fx, 517.3);
+  EXPECT_EQ(message_of([&] { return read("%YAML:1.0\ncoutn: 3"); }).substr(folder_.string().size(), 12),
+            "/settings:2:");
 }
 
 TEST_F(SettingsTest, byte_order_marks_and_windows_line_ends_do_not_matter) {
@@ -181,6 +216,15 @@ TEST(SettingTable, a_refused_value_changes_nothing) {
   EXPECT_TRUE(fields.check);
   EXPECT_FALSE(fields.fx);
   EXPECT_FALSE(fields.start);
+}
+
+TEST(SettingTable, a_parameter_of_another_program_changes_nothing) {
+  SettingTable table;
+  table.retired({"visualize", "", "clouds are written, not shown"});
+  EXPECT_EQ(table.apply({"visualize", "yes", "p.txt", 4}),
+            "p.txt:4: 'visualize' changes nothing: clouds are written, not shown.");
+  EXPECT_TRUE(table.knows("visualize"));
+  EXPECT_FALSE(table.knows("visualise"));
 }
 
 TEST_F(SettingsTest, format_is_read_back) {

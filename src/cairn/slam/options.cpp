@@ -108,9 +108,24 @@ void visit_loops(SlamOptions& slam, ParameterVisitor& visitor) {
   visitor.parameter({"relocalization_keyframes", at_least(1, "keyframe"),
                      "Recent keyframes in which a frame is looked for after tracking was lost."},
                     slam.relocalization_keyframes);
-  visitor.parameter({"lost_frames", at_least(1, "frame"),
-                     "Good images that fit nowhere, after which a second component of the map begins."},
-                    slam.lost_frames);
+  visitor.parameter(
+      {"lost_frames", at_least(1, "frame"),
+       "Good images that fit nowhere, after which a second component of the map begins.", "max_num_lost"},
+      slam.lost_frames);
+}
+
+/// Those of the RGB-D tutorial and of slambook's visual odometry that cairn has no use for.
+void visit_foreign(ParameterVisitor& visitor) {
+  constexpr const char* kAny = "";
+  visitor.retired({"visualize_pointcloud", kAny, "clouds are written, not shown"});
+  visitor.retired({"dataset_dir", kAny, "the sequence is named on the command line"});
+  visitor.retired({"scale_factor", kAny, "the pyramid of the features has a fixed step"});
+  visitor.retired({"level_pyramid", kAny, "the pyramid of the features has a fixed number of levels"});
+  visitor.retired(
+      {"match_ratio", kAny, "it goes with a least distance of 30; max_distance_factor is the limit here"});
+  visitor.retired({"keyframe_rotation", kAny, "keyframe_threshold limits the sum of rotation and motion"});
+  visitor.retired({"keyframe_translation", kAny, "keyframe_threshold limits the sum of rotation and motion"});
+  visitor.retired({"map_point_erase_ratio", kAny, "landmarks are kept by who sees them again"});
 }
 
 }  // namespace
@@ -120,6 +135,7 @@ void visit(SlamOptions& options, ParameterVisitor& visitor) {
   visit_matching(options, visitor);
   visit_motion(options, visitor);
   visit_loops(options, visitor);
+  visit_foreign(visitor);
   visit(options.tracking, visitor);
   visit(options.mapping, visitor);
 }
