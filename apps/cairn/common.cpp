@@ -120,6 +120,10 @@ void add_common_options(CommandLine& app, CommonOptions& options, const CommonOp
 SequenceOptions SequenceArguments::options() const {
   SequenceOptions result;
   result.camera = camera;
+  result.left = left;
+  result.right = right;
+  result.color = color;
+  result.depth = depth;
   if (!frames.empty()) result.frames = parse_frame_range(frames, "--frames");
   if (!without.empty()) result.without = parse_frame_range(without, "--without");
   return result;
@@ -129,6 +133,13 @@ void add_sequence_options(CommandLine& app, SequenceArguments& arguments) {
   app.add_option("--camera", arguments.camera,
                  "camera.yaml, or tum-fr1, tum-fr2, tum-fr3 (default: the sequence's own)")
       .type_name("FILE|NAME");
+  const auto add_images = [&](const char* option, std::string& images, const char* meaning) {
+    app.add_option(option, images, meaning).type_name("PATTERN");
+  };
+  add_images("--left", arguments.left, "left images, 'left/*.png' or a folder, in SEQ or from here");
+  add_images("--right", arguments.right, "right images, paired by the stamps or numbers in the names");
+  add_images("--color", arguments.color, "colour images of RGB-D, a pattern or a folder");
+  add_images("--depth", arguments.depth, "depth images of RGB-D, a pattern or a folder");
   app.add_option("--frames", arguments.frames, "only these frames, by position, end excluded")
       .type_name("A:B[:S]");
   app.add_option("--without", arguments.without, "all but these frames").type_name("A:B[:S]");
