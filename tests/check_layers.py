@@ -56,7 +56,7 @@ LIBRARIES = {
     "ceres/": "ceres", "glog/": "ceres", "octomap/": "octomap", "nlohmann/": "nlohmann", "CLI/": "CLI",
     "GeographicLib/": "GeographicLib", "gtest/": "gtest", "gmock/": "gtest",
 }
-SYSTEM = {"unistd.h", "fcntl.h", "dirent.h", "immintrin.h"}
+SYSTEM = {"unistd.h", "fcntl.h", "glob.h", "dirent.h", "immintrin.h"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:<([^>]+)>|"([^"]+)")')
 
 

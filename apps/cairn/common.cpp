@@ -123,6 +123,10 @@ void add_common_options(CommandLine& app, CommonOptions& options, const CommonOp
 SequenceOptions SequenceArguments::options() const {
   SequenceOptions result;
   result.camera = camera;
+  result.left = left;
+  result.right = right;
+  result.color = color;
+  result.depth = depth;
   if (std::filesystem::is_regular_file(frames))
     result.frame_numbers = read_frame_list(frames);
   else if (!frames.empty())
@@ -137,6 +141,13 @@ void add_sequence_options(CommandLine& app, SequenceArguments& arguments) {
                  "Open3D), or tum-fr1, tum-fr2, tum-fr3, or a pinhole camera's numbers, pixels and units of "
                  "depth in a metre (default: the sequence's own)")
       .type_name("FILE|NAME|fx,fy,cx,cy[,scale]");
+  const auto add_images = [&](const char* option, std::string& images, const char* meaning) {
+    app.add_option(option, images, meaning).type_name("PATTERN");
+  };
+  add_images("--left", arguments.left, "left images, 'left/*.png' or a folder, in SEQ or from here");
+  add_images("--right", arguments.right, "right images, paired by the stamps or numbers in the names");
+  add_images("--color", arguments.color, "colour images of RGB-D, a pattern or a folder");
+  add_images("--depth", arguments.depth, "depth images of RGB-D, a pattern or a folder");
   app.add_option(
          "--frames", arguments.frames,
          "only these frames, by position, end excluded; or those that a file as keyframe.txt lists by "

@@ -31,9 +31,9 @@ struct CommonOptionSet {
 };
 
 void add_common_options(CommandLine& app, CommonOptions& options, const CommonOptionSet& offers);
-/// --camera, --frames, --without for whatever reads a sequence.
+/// --camera, --frames, --without and the patterns of images for whatever reads a sequence.
 struct SequenceArguments {
-  std::string folder, camera, frames, without;
+  std::string folder, camera, frames, without, left, right, color, depth;
   [[nodiscard]] SequenceOptions options() const;
 };
 void add_sequence_options(CommandLine& app, SequenceArguments& arguments);

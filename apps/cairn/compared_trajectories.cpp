@@ -39,7 +39,7 @@ struct Reference {
 
 bool is_sequence(const fs::path& folder) {
   return is_tum(folder) || is_seven_scenes(folder) || is_kitti(folder) || is_euroc(folder) ||
-         is_numbered(folder, {});
+         is_image_pairs(folder, {});
 }
 
 /// Warns if the poses are those of a run of cairn localize whose images have no times.

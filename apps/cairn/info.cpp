@@ -39,7 +39,8 @@ std::int64_t count_unreadable(const Sequence& sequence, Progress& progress) {
 
 /// What chooses from a sequence would do nothing for a map.
 void require_no_choice(const CommandLine& app) {
-  for (const char* option : {"--camera", "--frames", "--without"}) {
+  for (const char* option :
+       {"--camera", "--frames", "--without", "--left", "--right", "--color", "--depth"}) {
     if (app.count(option) > 0)
       throw InputError({option, 0, "a sequence to apply it to", "a map", "Leave the option out."});
   }

@@ -116,7 +116,7 @@ bool has_depth_images(const fs::path& folder) {
 
 bool is_sequence(const fs::path& folder, const SequenceOptions& options) {
   return is_tum(folder) || (is_seven_scenes(folder) && has_depth_images(folder)) || is_kitti(folder) ||
-         is_euroc(folder) || is_numbered(folder, options);
+         is_euroc(folder) || is_image_pairs(folder, options);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ std::int64_t stamp_of_number(std::int64_t number, double rate_hz) {
 }
 
 bool has_clock(const Sequence& sequence) {
-  return sequence.format == "TUM" || sequence.format == "EuRoC";
+  return sequence.format == "TUM" || sequence.format == "EuRoC" || sequence.format == "stamped";
 }
 
 bool has_frame_numbers(const fs::path& path) {

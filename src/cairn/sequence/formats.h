@@ -36,11 +36,13 @@ void list_kitti(const std::filesystem::path& folder, Sequence& sequence);
 /// Lists the stereo pairs of an ASL sequence.
 void list_euroc(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
 
-/// Tells whether a folder holds files named by their number in two folders, given by the options or usual
-/// (rgb_index and dep_index, rgb and depth, ...); poses are in trajectory.txt, by number.
-[[nodiscard]] bool is_numbered(const std::filesystem::path& folder, const SequenceOptions& options);
-/// Lists the frames of numbered files.
-void list_numbered(const std::filesystem::path& folder, const SequenceOptions& options, Sequence& sequence);
+/// Tells whether a folder holds two series of images, colour and depth or left and right, in two folders or
+/// in one, given by the options or of usual names (image_folders.h).
+[[nodiscard]] bool is_image_pairs(const std::filesystem::path& folder, const SequenceOptions& options);
+/// Lists the frames of two series: their names hold stamps or numbers; poses are in pose/, traj.txt,
+/// trajectory.txt (by number) or groundtruth.txt (by time).
+void list_image_pairs(const std::filesystem::path& folder, const SequenceOptions& options,
+                      Sequence& sequence);
 
 /// Lists the files of a folder in the natural order of their names (2.png before 10.png), without hidden
 /// ones.

@@ -9,11 +9,21 @@
 #include "cairn/sequence/calibration_choice.h"
 #include "cairn/sequence/camera_numbers.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/image_folders.h"
+#include "cairn/sequence/recording_file.h"
 
 namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Describes a folder without a known layout.
+std::string describe_found(const fs::path& folder) {
+  if (fs::is_empty(folder)) return "an empty folder";
+  if (const auto recording = recording_in(folder)) return *recording;
+  const std::string nearest = describe_nearest_layout(folder);
+  return nearest.empty() ? "none of these" : nearest;
+}
 
 [[noreturn]] void fail_unknown_format(const fs::path& folder) {
   const bool has_rgb = fs::exists(folder / "rgb.txt"), has_depth = fs::exists(folder / "depth.txt");
@@ -22,20 +32,25 @@ namespace fs = std::filesystem;
                       "the list of images in TUM layout, lines `stamp path`", "no such file",
                       "Both rgb.txt and depth.txt are needed, or associations.txt."});
   }
-  throw InputError({folder.string(), 0,
-                    "a sequence: TUM (rgb.txt, depth.txt), 7-Scenes (frame-000000.color.*), KITTI (image_0, "
-                    "image_1, calib.txt, times.txt), EuRoC (cam0, cam1, or mav0 with both) or numbered files",
-                    fs::is_empty(folder) ? "an empty folder" : "none of these",
-                    "Name the folder that holds these files, or rgb_dir and depth_dir in a parameter file."});
+  throw InputError(
+      {folder.string(), 0,
+       "a sequence: TUM (rgb.txt, depth.txt), 7-Scenes (frame-000000.color.*), KITTI (image_0, "
+       "image_1, calib.txt, times.txt), EuRoC (cam0, cam1, or mav0 with both), or two series of "
+       "images (color/ and depth/, left/ and right/, left_* and right_*)",
+       describe_found(folder),
+       "Name the folder that holds these files, or the images by --color and --depth or by --left "
+       "and --right."});
 }
 
 void list_frames(const fs::path& folder, const SequenceOptions& options, Sequence& sequence) {
-  if (!options.rgb_dir.empty() || !options.depth_dir.empty()) return list_numbered(folder, options, sequence);
+  const bool are_named = !options.rgb_dir.empty() || !options.depth_dir.empty() || !options.left.empty() ||
+                         !options.right.empty() || !options.color.empty() || !options.depth.empty();
+  if (are_named) return list_image_pairs(folder, options, sequence);
   if (is_tum(folder)) return list_tum(folder, options, sequence);
   if (is_seven_scenes(folder)) return list_seven_scenes(folder, sequence);
   if (is_kitti(folder)) return list_kitti(folder, sequence);
   if (is_euroc(folder)) return list_euroc(folder, options, sequence);
-  if (is_numbered(folder, options)) return list_numbered(folder, options, sequence);
+  if (is_image_pairs(folder, options)) return list_image_pairs(folder, options, sequence);
   fail_unknown_format(folder);
 }
 
@@ -146,6 +161,7 @@ void move_truth_to_camera(Sequence& sequence) {
 }
 
 Sequence open_checked(const fs::path& folder, const SequenceOptions& options) {
+  refuse_recording(folder);
   if (!fs::is_directory(folder)) {
     throw InputError({folder.string(), 0, "a folder with a sequence",
                       fs::exists(folder) ? "a file" : "nothing of that name", "Check the path."});

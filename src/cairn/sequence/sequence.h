@@ -42,7 +42,7 @@ struct SequenceReport {
 /// Describes a recording on disk: images, times and cameras. FrameLoader decodes the images.
 struct Sequence {
   std::filesystem::path folder;
-  std::string format;  ///< "TUM", "7-Scenes", "numbered", "KITTI", "EuRoC"
+  std::string format;  ///< "TUM", "7-Scenes", "numbered", "stamped", "KITTI", "EuRoC"
   Calibration calibration;
   std::string calibration_source;  ///< source of the calibration, for people
   std::vector<FrameFiles> frames;  ///< stamps strictly increasing
@@ -76,6 +76,8 @@ struct SequenceOptions {
   CameraParameters camera_parameters;  ///< take precedence over the calibration
   std::string rgb_dir, rgb_extension;  ///< of numbered files; empty: the usual ones
   std::string depth_dir, depth_extension;
+  std::string left, right;   ///< patterns or folders of stereo images without lists; empty: the usual ones
+  std::string color, depth;  ///< patterns or folders of RGB-D images without lists; empty: the usual ones
   std::optional<std::int64_t> start_index;  ///< file number of the first frame
   std::optional<std::int64_t> end_index;    ///< file number of the first frame that is left out
   double max_stamp_gap_s = 0.02;  ///< TUM, EuRoC: largest difference of an associated pair (as the TUM tools)

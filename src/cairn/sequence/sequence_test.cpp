@@ -147,8 +147,8 @@ TEST_F(SequenceTest, depth_without_a_scale_is_refused) {
 TEST_F(SequenceTest, what_is_no_sequence_is_refused) {
   make_empty();
   EXPECT_TRUE(
-      refusal().ends_with("found an empty folder.\n  Name the folder that holds these files, or rgb_dir and "
-                          "depth_dir in a parameter file."));
+      refusal().ends_with("found an empty folder.\n  Name the folder that holds these files, or the "
+                          "images by --color and --depth or by --left and --right."));
   put("notes.txt", "hello");
   EXPECT_TRUE(refusal().find(", found none of these.") != std::string::npos) << refusal();
   const auto open = [](const fs::path& path) { return message_of([&] { return open_sequence(path); }); };

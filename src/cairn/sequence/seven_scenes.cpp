@@ -2,15 +2,11 @@
 // 7-Scenes (Shotton et al. 2013): frame-NNNNNN.color.png|jpg, frame-NNNNNN.depth.png, frame-NNNNNN.pose.txt
 // with the 4x4 matrix world_from_camera (of which camera: `poses_are`). No time stamps: videos of a Kinect,
 // 30 Hz.
-#include <fmt/format.h>
-
-#include <Eigen/LU>
 #include <algorithm>
 #include <map>
 
-#include "cairn/core/error.h"
-#include "cairn/core/text.h"
 #include "cairn/sequence/formats.h"
+#include "cairn/sequence/matrix_pose.h"
 
 namespace cairn {
 namespace {
@@ -38,58 +34,6 @@ std::optional<FrameName> parse_name(const std::string& name) {
 bool is_image_of(const FrameName& name, const char* kind) {
   const fs::path rest(name.rest);
   return is_image_name(rest) && rest.stem() == kind;
-}
-
-/// NaN and infinities, as recordings have them where tracking was lost.
-bool is_no_number(std::string_view text) {
-  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  const std::string lower = lower_case(text.substr(0, 3));
-  return lower == "nan" || lower == "inf";
-}
-
-void expect_four_lines(const TextFile& file) {
-  if (file.lines().size() != 4)
-    throw InputError({file.path().string(), 0, "4 lines, a 4x4 matrix",
-                      fmt::format("{} lines", file.lines().size()), "Correct or delete the file."});
-}
-
-/// Nothing where one of its numbers is NaN or infinite.
-std::optional<Eigen::Matrix4d> read_matrix(const TextFile& file) {
-  expect_four_lines(file);
-  bool finite = true;
-  Eigen::Matrix4d matrix;
-  for (std::size_t i = 0; i < 16; ++i) {
-    const TextLine& line = file.lines()[i / 4];
-    file.expect_fields(line, 4, "a row of a 4x4 matrix");
-    finite = finite && !is_no_number(line.fields[i % 4]);
-    if (!is_no_number(line.fields[i % 4]))
-      matrix(static_cast<Eigen::Index>(i / 4), static_cast<Eigen::Index>(i % 4)) =
-          file.number(line, i % 4, "the matrix");
-  }
-  return finite ? std::optional(matrix) : std::nullopt;
-}
-
-/// Nothing for the matrix of NaN, infinities or zeros by which the recording says that tracking was lost
-/// there.
-std::optional<WorldFromCamera> read_pose(const fs::path& path) {
-  const TextFile file(path);
-  const auto matrix = read_matrix(file);
-  if (!matrix) return std::nullopt;
-  const Eigen::Matrix3d rotation = matrix->topLeftCorner<3, 3>();
-  if (rotation.isZero(0)) return std::nullopt;
-  constexpr double kMaxDeviation = 0.05;
-  const double deviation = (rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm();
-  if (!(deviation < kMaxDeviation) || rotation.determinant() < 0) {
-    file.fail(file.lines()[0], "a rotation in the first three rows and columns",
-              fmt::format("a matrix with determinant {:.4g}, {:.2g} from orthogonal", rotation.determinant(),
-                          deviation),
-              "Check that it is world_from_camera, or delete the file.");
-  }
-  if (!(matrix->row(3) - Eigen::RowVector4d(0, 0, 0, 1)).isZero(1e-6)) {
-    file.fail(file.lines()[3], "a last row 0 0 0 1", "another",
-              "Check that the matrix is written by rows, the translation in the last column.");
-  }
-  return WorldFromCamera({Eigen::Quaterniond(rotation).normalized(), matrix->topRightCorner<3, 1>()});
 }
 
 struct FoundFiles {
@@ -128,7 +72,7 @@ void list_seven_scenes(const fs::path& folder, Sequence& sequence) {
     const std::int64_t stamp_ns = stamp_of_number(number, sequence.calibration.stamp_rate_hz());
     sequence.frames.push_back({stamp_ns, number, files.color, files.depth, {}});
     if (files.pose.empty()) continue;
-    if (const auto pose = read_pose(files.pose)) truth.push_back({stamp_ns, *pose});
+    if (const auto pose = read_matrix_pose(files.pose)) truth.push_back({stamp_ns, *pose});
   }
   sequence.report.associated = static_cast<std::int64_t>(sequence.frames.size());
   if (!truth.empty()) sequence.truth = std::move(truth);
