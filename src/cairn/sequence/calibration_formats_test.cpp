@@ -86,6 +86,9 @@ roi:
   do_rectify: False
 ---
 )");
+}
+
+TEST_F(CalibrationFormatsTest, messages_of_the_second_ros_are_read_as_they_are_echoed) {
   expect_plain("echo2.yaml", R"(header:
   stamp:
     sec: 1305031102

@@ -81,19 +81,6 @@ void expect_poses(const TextFile& file, const std::vector<TextLine>& rows) {
                fmt::format("{} value{} in each of {} lines", count, count == 1 ? "" : "s", rows.size()));
 }
 
-/// Of names between semicolons, which are skipped with what else precedes the rows, the order must be TUM's.
-void expect_order_of_names(const TextFile& file, const std::vector<TextLine>& rows) {
-  for (const TextLine& line : file.lines()) {
-    if (line.number == rows.front().number) return;
-    const auto scalar = std::find_if(line.fields.begin(), line.fields.end(), [](std::string_view name) {
-      return lower_case(name).starts_with("qw");
-    });
-    if (scalar == line.fields.end() || scalar - line.fields.begin() == kTumFields - 1) continue;
-    file.fail(line, fmt::format("columns in the order {}", kTum), "another order",
-              "Separate names and values by commas; then they may come in any order.");
-  }
-}
-
 // ---- one row ----
 
 /// The line without its first fields.
@@ -278,7 +265,6 @@ RecordedPoses read_unnamed_poses(const fs::path& path, bool may_have_numbers) {
   const std::vector<TextLine> rows = rows_of_numbers(file);
   if (is_asl(path, rows)) return read_unnamed_asl_poses(path);
   expect_poses(file, rows);
-  expect_order_of_names(file, rows);
   const RowLayout layout = layout_of(rows.front());
   return layout.has_key ? read_by_key(file, rows, layout, may_have_numbers)
                         : read_by_position(file, rows, layout);
