@@ -49,7 +49,9 @@ TEST_F(TumTest, associates_by_time) {
 TEST_F(TumTest, lists_may_have_nanoseconds_tabs_and_paths_from_here) {
   const Sequence plain = open_sequence(folder_);
   put("rgb.txt", "1000000000\t./rgb/a.png\r\n1100000000\t./rgb/b.png\r\n1200000000\t./rgb/c.png\r\n");
-  put("depth.txt", "\xEF\xBB\xBF" "# depth\r\n1015000000 ./depth/a.png\r\n1190000000 ./depth/c.png\r\n");
+  put("depth.txt",
+      "\xEF\xBB\xBF"
+      "# depth\r\n1015000000 ./depth/a.png\r\n1190000000 ./depth/c.png\r\n");
   const Sequence sequence = open_sequence(folder_);
   ASSERT_EQ(sequence.frames.size(), plain.frames.size());
   for (std::size_t i = 0; i < plain.frames.size(); ++i) {
