@@ -22,7 +22,9 @@ struct GraphArguments {
 };
 
 void declare(CommandLine& app, GraphArguments& arguments) {
-  app.add_option("input", arguments.input, "3D pose graph, g2o text format").type_name("IN.g2o").required();
+  app.add_option("input", arguments.input, "pose graph in 3D or 2D, g2o text format")
+      .type_name("IN.g2o")
+      .required();
   app.add_option("-o", arguments.output, "the optimised graph").type_name("OUT.g2o").required();
   app.add_option(
          "--robust", arguments.robust,
@@ -61,10 +63,12 @@ int run_graph(int argc, char** argv) {
   arguments.options.kernel = kKernels.at(arguments.robust);
   arguments.options.start = kStarts.at(arguments.start);
 
-  PoseGraph graph = read_g2o(arguments.input);
+  std::vector<std::string> warnings;
+  PoseGraph graph = read_g2o(arguments.input, &warnings);
   AtomicFile output(arguments.output);  // before the work: a path that cannot be written is known at once
   if (arguments.options.kernel != RobustKernel::none) flag_loop_edges_robust(graph);
   const auto progress = make_progress(arguments.common);
+  for (const std::string& warning : warnings) progress->warn(warning);
   const PoseGraphReport report = optimize_pose_graph(graph, arguments.options, progress.get());
   output.write(format_g2o(graph));
   output.commit();

@@ -8,6 +8,7 @@
 
 #include "cairn/core/error.h"
 #include "cairn/image/codec.h"
+#include "cairn/sequence/calibration_choice.h"
 #include "cairn/sequence/formats.h"
 
 namespace cairn::app {
@@ -28,23 +29,21 @@ Calibration camera_of(const MapInfo& map) {
   return calibration;
 }
 
-/// The calibration in the order of who may say: --camera, one beside the images, the map.
-void choose_calibration(const fs::path& folder, const SequenceOptions& options, const MapInfo& map,
-                        Sequence& sequence) {
-  sequence.calibration_source = kFromMap;
-  if (!options.camera.empty()) {
-    sequence.calibration_source = options.camera;
-  } else if (const auto own = find_calibration(folder)) {
-    sequence.calibration_source = own->string();
-  } else {
-    sequence.calibration = camera_of(map);
-    if (map.width > 0 && map.height > 0) return;
+/// The calibration in the order of who may say: --camera, one beside the images, the map. Tells whether a
+/// rate is stated for the images: beside them, as a rate that comes with --camera is the camera's.
+bool take_calibration(const fs::path& folder, const SequenceOptions& options, const MapInfo& map,
+                      Sequence& sequence) {
+  const ChosenCalibration chosen = choose_calibration(folder, options);
+  if (!chosen.whole && !(map.width > 0 && map.height > 0)) {
     throw InputError({"--camera", 0,
                       "the calibration of the images, as the map does not say the size of its own", "none",
                       "Give --camera FILE."});
   }
-  const auto known = known_calibration(sequence.calibration_source);
-  sequence.calibration = known ? *known : read_calibration(sequence.calibration_source);
+  sequence.calibration = camera_of(map);
+  sequence.calibration_source = kFromMap;
+  chosen.apply(sequence);
+  return options.camera.empty() ? sequence.calibration.rate_hz.has_value()
+                                : chosen.addition && chosen.addition->rate_hz;
 }
 
 std::optional<GrayImage> read_if_possible(const fs::path& path) {
@@ -76,8 +75,8 @@ std::vector<fs::path> images_in(const fs::path& folder) {
   return images;
 }
 
-/// Images have times only if camera.yaml beside them states a rate, as a video's does; a rate that comes with
-/// --camera is the camera's. The stamps of others are their positions in the folder as whole seconds.
+/// Only images of a video have times, by the rate that the calibration states. The stamps of others are their
+/// positions in the folder as whole seconds.
 void list_images(const std::vector<fs::path>& images, const SequenceOptions& options, bool is_video,
                  Sequence& sequence) {
   sequence.has_times = is_video;
@@ -100,8 +99,8 @@ Sequence sequence_of(const std::vector<fs::path>& images, const fs::path& folder
   Sequence sequence;
   sequence.folder = folder;
   sequence.format = "images";
-  choose_calibration(folder, options, map, sequence);
-  list_images(images, options, options.camera.empty() && sequence.calibration.rate_hz, sequence);
+  const bool is_video = take_calibration(folder, options, map, sequence);
+  list_images(images, options, is_video, sequence);
   if (sequence.calibration_source == kFromMap) expect_map_size(sequence.frames.front().color, map);
   return sequence;
 }

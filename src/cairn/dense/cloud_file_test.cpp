@@ -142,7 +142,7 @@ const Broken kBroken[] = {
     {"type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n",
      ":4: expected a PLY type such as float or uchar, found 'real'.\n  Correct the header."},
     {"list.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty list uchar int x\nend_header\n",
-     ":4: expected a PLY type such as float or uchar, found 'list'.\n  Correct the header."},
+     ": expected points with x, y and z, found none with x.\n  Choose a point cloud."},
     {"word.ply", "ply\nformat ascii 1.0\nvertices 5\nend_header\n",
      ":3: expected format, element, property, comment or end_header, found 'vertices 5'.\n"
      "  Write the file again; its header is broken."},

@@ -11,6 +11,7 @@
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
 #include "cairn/core/text.h"
+#include "cairn/dense/ply_lists.h"
 #include "cairn/dense/point_records.h"
 
 namespace cairn {
@@ -44,7 +45,7 @@ class PlyHeader {
   }
 
   [[nodiscard]] bool ascii() const { return format_ == "ascii"; }
-  [[nodiscard]] const std::vector<PointField>& fields() const { return fields_; }
+  [[nodiscard]] const std::vector<PlyProperty>& properties() const { return properties_; }
   [[nodiscard]] PointData data() const { return {contents_.substr(begin_), count_, line_ + 1}; }
 
  private:
@@ -59,6 +60,7 @@ class PlyHeader {
   void set_format(std::string_view format);
   void begin_element(std::string_view name, std::string_view count);
   void add_property(const Words& words);
+  [[nodiscard]] PointField field_in(std::string_view type, std::string_view name) const;
 
   const std::filesystem::path& path_;
   std::string_view contents_;
@@ -68,7 +70,7 @@ class PlyHeader {
   std::string format_;
   int elements_ = 0;
   std::size_t count_ = 0;
-  std::vector<PointField> fields_;
+  std::vector<PlyProperty> properties_;
 };
 
 void PlyHeader::declare(const Words& words) {
@@ -108,9 +110,28 @@ void PlyHeader::begin_element(std::string_view name, std::string_view count) {
 void PlyHeader::add_property(const Words& words) {
   if (elements_ > 1) return;
   if (elements_ == 0) fail("an element before its properties", "a property", "Correct the header.");
-  const auto field = field_of(words[1], words[2]);
-  if (!field) fail("a PLY type such as float or uchar", fmt::format("'{}'", words[1]), "Correct the header.");
-  fields_.push_back(*field);
+  if (words[1] != "list") return properties_.push_back({field_in(words[1], words[2]), std::nullopt});
+  if (words.size() != 5)
+    fail("property list, two types and a name", fmt::format("'{}'", fmt::join(words, " ")),
+         "Correct the header.");
+  const PointField length = field_in(words[2], words[4]);
+  if (length.kind == 'F')
+    fail("an integer type for the length of a list", fmt::format("'{}'", words[2]), "Correct the header.");
+  properties_.push_back({field_in(words[3], words[4]), length});
+}
+
+PointField PlyHeader::field_in(std::string_view type, std::string_view name) const {
+  const auto field = field_of(type, name);
+  if (!field) fail("a PLY type such as float or uchar", fmt::format("'{}'", type), "Correct the header.");
+  return *field;
+}
+
+/// The properties that are no lists.
+std::vector<PointField> fields_of(const std::vector<PlyProperty>& properties) {
+  std::vector<PointField> fields;
+  for (const PlyProperty& property : properties)
+    if (!property.length) fields.push_back(property.value);
+  return fields;
 }
 
 }  // namespace
@@ -118,8 +139,16 @@ void PlyHeader::add_property(const Words& words) {
 Cloud read_ply(const std::filesystem::path& path) {
   const std::string contents = read_file(path);
   const PlyHeader header(path, contents);
-  const PointRecords records(path, header.fields());
-  return header.ascii() ? records.read_ascii(header.data()) : records.read_binary(header.data());
+  const std::vector<PointField> fields = fields_of(header.properties());
+  const PointRecords records(path, fields);
+  PointData data = header.data();
+  std::string kept;
+  if (fields.size() < header.properties().size()) {
+    kept = header.ascii() ? text_without_lists(path, header.properties(), data)
+                          : binary_without_lists(path, header.properties(), data);
+    data.bytes = kept;
+  }
+  return header.ascii() ? records.read_ascii(data) : records.read_binary(data);
 }
 
 void write_ply(const std::filesystem::path& path, const Cloud& cloud) {

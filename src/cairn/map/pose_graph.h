@@ -34,6 +34,10 @@ struct PoseGraph {
   std::vector<Vertex> vertices;
   std::vector<Edge> edges;
   std::vector<std::int64_t> fixed;  ///< ids of vertices that must stay where they are; may be empty
+  /// Whether all poses and measurements lie in the plane: z = 0 and turns about z. The error's rotation is
+  /// then the angle itself, as in g2o's 2D graphs, and information has only the rows and columns of x, y and
+  /// the last, of the angle in radians; all others are 0.
+  bool planar = false;
 };
 
 /// Computes the information of an edge whose translation has standard deviation `translation_std_m` (metres)

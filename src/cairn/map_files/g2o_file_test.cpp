@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
@@ -94,6 +95,43 @@ TEST(G2oFile, WritesTidyLines) {
             "EDGE_SE3:QUAT 0 1 0.5 -2 1e-07 0 0 0.6 0.8 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n");
 }
 
+TEST(G2oFile, ReadsAndWritesPlanarGraphs) {
+  const std::string text =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.5 -2 3.25\nFIX 1\nEDGE_SE2 0 1 1 2 -0.5 1 2 3 8 5 14\n";
+  const PoseGraph graph = read_text(text);
+  EXPECT_TRUE(graph.planar);
+  EXPECT_EQ(graph.vertices[1].world_from_vertex.translation, Eigen::Vector3d(1.5, -2, 0));
+  EXPECT_DOUBLE_EQ(rotation_log(graph.edges[0].a_from_b.rotation).z(), -0.5);
+  Matrix6d information = Matrix6d::Zero();
+  information(0, 0) = 1, information(0, 1) = 2, information(0, 5) = 3;
+  information(1, 0) = 2, information(1, 1) = 8, information(1, 5) = 5;
+  information(5, 0) = 3, information(5, 1) = 5, information(5, 5) = 14;
+  EXPECT_EQ(graph.edges[0].information, information);
+  const PoseGraph back = read_text(format_g2o(graph));
+  EXPECT_TRUE(back.planar);
+  EXPECT_EQ(back.edges[0].information, information);
+  EXPECT_EQ(back.fixed, graph.fixed);
+  EXPECT_LT(rotation_angle(back.vertices[1].world_from_vertex.rotation.conjugate() *
+                           graph.vertices[1].world_from_vertex.rotation),
+            1e-15);
+}
+
+TEST(G2oFile, PassesOverWhatNoEdgeUsesAndCountsIt) {
+  const testkit::TemporaryFolder folder;
+  const auto path = folder.write("graph.g2o", "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\nVERTEX_TRACKXYZ 9 0 0 0\n" +
+                                                  kTwo + "FIX 9 0\nPARAMS_SE3OFFSET 1 0 0 0 0 0 0 1\n" +
+                                                  kEdge + kInformation + "\n");
+  std::vector<std::string> warnings;
+  const PoseGraph graph = read_g2o(path, &warnings);
+  EXPECT_EQ(graph.vertices.size(), 2U);
+  EXPECT_EQ(graph.edges.size(), 1U);
+  EXPECT_EQ(graph.fixed, (std::vector<std::int64_t>{0}));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0], path.string() +
+                             ": 3 lines that no edge between poses uses passed over, and not written: "
+                             "PARAMS_SE3OFFSET (2), VERTEX_TRACKXYZ (1).");
+}
+
 TEST(G2oFile, AcceptsSemiDefiniteInformation) {
   const PoseGraph graph = read_text(kTwo + kEdge + " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 0 0 0 0 0 0\n");
   EXPECT_EQ(graph.edges[0].information(5, 5), 0);
@@ -101,11 +139,13 @@ TEST(G2oFile, AcceptsSemiDefiniteInformation) {
 
 TEST(G2oFile, NamesWhatIsWrong) {
   const std::string mend = "\n  Correct or delete the line.";
-  const std::string tags = "expected VERTEX_SE3:QUAT, EDGE_SE3:QUAT or FIX, found ";
+  const std::string edges = "expected EDGE_SE3:QUAT or EDGE_SE2, found ";
   const struct {
     std::string text, message;
   } cases[] = {
-      {"", "FILE: expected vertices (VERTEX_SE3:QUAT), found none.\n  Check that this is the right file."},
+      {"",
+       "FILE: expected vertices (VERTEX_SE3:QUAT or VERTEX_SE2), found none.\n  Check that this is the right "
+       "file."},
       {"VERTEX_SE3:QUAT 0 0 0 0 0 0 1\n",
        "FILE:1: expected 8 values after VERTEX_SE3:QUAT (id x y z qx qy qz qw), found 7." + mend},
       {kTwo + "VERTEX_SE3:QUAT 7" + kIdentity,
@@ -137,11 +177,20 @@ TEST(G2oFile, NamesWhatIsWrong) {
        "FILE:3: expected a number for i12, found 'inf'." + mend},
       {kTwo + "FIX 3", "FILE:3: expected ids of vertices of this file, found 3, which is none." + mend},
       {kTwo + "FIX", "FILE:3: expected ids after FIX, found none." + mend},
-      {"VERTEX_SE2 0 0 0 0\n",
-       "FILE:1: " + tags + "'VERTEX_SE2'.\n  This is a 2D graph; only 3D pose graphs are supported."},
-      {kTwo + "VERTEX_TRACKXYZ 9 0 0 0\n",
-       "FILE:3: " + tags +
-           "'VERTEX_TRACKXYZ'.\n  Only 3D pose graphs are supported; remove what else the file holds."},
+      {kTwo + "VERTEX_SE2 8 0 0 0\n",
+       "FILE:3: expected a graph in 3D throughout, as line 1 begins it, found 'VERTEX_SE2'.\n"
+       "  Give each graph its own file."},
+      {"VERTEX_SE2 0 0 0\n", "FILE:1: expected 4 values after VERTEX_SE2 (id x y theta), found 3." + mend},
+      {"EDGE_SE2 0 1 1 0 0 1 0 0 1 0\n",
+       "FILE:1: expected 11 values after EDGE_SE2 (a b x y theta and 6 of the information's upper triangle), "
+       "found 10." +
+           mend},
+      {"EDGE2 0 1 1 0 0 1 0 1 1 0 0\n",
+       "FILE:1: " + edges + "'EDGE2'.\n  This is TORO's format; convert the graph to g2o's."},
+      {kTwo + "EDGE_SE3_PRIOR 0 0 0 0 0\n", "FILE:3: " + edges +
+                                                "'EDGE_SE3_PRIOR'.\n  Only poses and the motions between "
+                                                "them are optimised. Delete all other edges "
+                                                "to do without what they measure."},
   };
   for (const auto& [text, message] : cases) EXPECT_EQ(message_for(text), message);
 }

@@ -60,6 +60,53 @@ class VertexManifold : public ceres::Manifold {
   }
 };
 
+/// perturb_vertex within the plane: steps (w_z, v_x, v_y), which are consecutive in xi.
+class PlanarManifold : public ceres::Manifold {
+ public:
+  [[nodiscard]] int AmbientSize() const override { return 7; }
+  [[nodiscard]] int TangentSize() const override { return 3; }
+
+  bool Plus(const double* block, const double* step, double* moved) const override {
+    Vector6d xi = Vector6d::Zero();
+    xi.segment<3>(kFirst) = Eigen::Map<const Eigen::Vector3d>(step);
+    store_pose(perturb_vertex(xi, pose_of(block)), moved);
+    return true;
+  }
+  bool PlusJacobian(const double* /*block*/, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 7, 3, Eigen::RowMajor>> target(jacobian);
+    target.setZero();
+    target.middleRows<3>(kFirst).setIdentity();
+    return true;
+  }
+  bool Minus(const double* moved, const double* block, double* step) const override {
+    const Rigid3 to = pose_of(moved), from = pose_of(block);
+    const Eigen::Vector3d shift = to.translation - from.translation;
+    Eigen::Map<Eigen::Vector3d>{step} << rotation_log(to.rotation * from.rotation.conjugate()).z(), shift.x(),
+        shift.y();
+    return true;
+  }
+  bool MinusJacobian(const double* /*block*/, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 3, 7, Eigen::RowMajor>> target(jacobian);
+    target.setZero();
+    target.middleCols<3>(kFirst).setIdentity();
+    return true;
+  }
+
+ private:
+  static constexpr int kFirst = 2;
+};
+
+std::unique_ptr<ceres::Manifold> make_manifold(const PoseGraph& graph) {
+  if (graph.planar) return std::make_unique<PlanarManifold>();
+  return std::make_unique<VertexManifold>();
+}
+
+/// The pose of the plane that is left of one which rounding moved out of it.
+Rigid3 in_plane(const Rigid3& pose) {
+  return {Eigen::Quaterniond(pose.rotation.w(), 0, 0, pose.rotation.z()).normalized(),
+          {pose.translation.x(), pose.translation.y(), 0}};
+}
+
 /// S with S^T S = information. By eigenvalues, because information may be semi-definite.
 Matrix6d square_root(const Matrix6d& information) {
   const SymmetricEigen<6> eigen = eigen_of_symmetric(information);
@@ -68,14 +115,15 @@ Matrix6d square_root(const Matrix6d& information) {
 
 class EdgeCost : public ceres::SizedCostFunction<6, 7, 7> {
  public:
-  explicit EdgeCost(const PoseGraph::Edge& edge)
-      : a_from_b_(edge.a_from_b), whitening_(square_root(edge.information)) {}
+  EdgeCost(const PoseGraph& graph, const PoseGraph::Edge& edge)
+      : graph_(graph), edge_(edge), whitening_(square_root(edge.information)) {}
 
   bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
     const Rigid3 world_from_a = pose_of(blocks[0]), world_from_b = pose_of(blocks[1]);
-    Eigen::Map<Vector6d>{residual} = whitening_ * pose_graph_error(world_from_a, world_from_b, a_from_b_);
+    Eigen::Map<Vector6d>{residual} = whitening_ * edge_error(graph_, edge_, world_from_a, world_from_b);
     if (jacobians == nullptr) return true;
-    const PoseGraphJacobians derivatives = pose_graph_jacobians(world_from_a, world_from_b, a_from_b_);
+    const auto derivatives_of = graph_.planar ? planar_graph_jacobians : pose_graph_jacobians;
+    const PoseGraphJacobians derivatives = derivatives_of(world_from_a, world_from_b, edge_.a_from_b);
     store(whitening_ * derivatives.by_a, jacobians[0]);
     store(whitening_ * derivatives.by_b, jacobians[1]);
     return true;
@@ -89,7 +137,8 @@ class EdgeCost : public ceres::SizedCostFunction<6, 7, 7> {
     target.col(6).setZero();
   }
 
-  Rigid3 a_from_b_;
+  const PoseGraph& graph_;
+  const PoseGraph::Edge& edge_;
   Matrix6d whitening_;
 };
 
@@ -126,7 +175,11 @@ std::unique_ptr<ceres::LossFunction> make_loss(const PoseGraphOptions& options) 
 class PoseGraphProblem {
  public:
   PoseGraphProblem(const PoseGraph& graph, const PoseGraphOptions& options)
-      : graph_(graph), options_(options), structure_(analyse_pose_graph(graph)), loss_(make_loss(options)) {
+      : graph_(graph),
+        options_(options),
+        structure_(analyse_pose_graph(graph)),
+        loss_(make_loss(options)),
+        manifold_(make_manifold(graph)) {
     for (const auto& vertex : graph.vertices) poses_.push_back(vertex.world_from_vertex);
   }
 
@@ -138,6 +191,7 @@ class PoseGraphProblem {
     if (options_.start == PoseGraphStart::given) return PoseGraphStart::given;
     std::vector<Rigid3> relaxed = relax_chordal(graph_, structure_);
     if (relaxed.empty()) return PoseGraphStart::given;
+    if (graph_.planar) std::transform(relaxed.begin(), relaxed.end(), relaxed.begin(), in_plane);
     if (options_.start == PoseGraphStart::best && cost(relaxed) >= cost(poses_)) return PoseGraphStart::given;
     poses_ = std::move(relaxed);
     return PoseGraphStart::chordal;
@@ -164,7 +218,7 @@ class PoseGraphProblem {
     for (std::size_t k = 0; k < structure_.ends.size(); ++k) {
       const auto [a, b] = structure_.ends[k];
       const auto& edge = graph_.edges[k];
-      const Vector6d error = pose_graph_error(poses[a], poses[b], edge.a_from_b);
+      const Vector6d error = edge_error(graph_, edge, poses[a], poses[b]);
       std::array<double, 3> rho{error.dot(edge.information * error), 1.0, 0.0};
       if (edge.robust && loss_) loss_->Evaluate(rho[0], rho.data());
       sum += rho[0];
@@ -184,12 +238,12 @@ class PoseGraphProblem {
       const auto [a, b] = structure_.ends[k];
       if (structure_.held[a] && structure_.held[b]) continue;
       const auto& edge = graph_.edges[k];
-      problem.AddResidualBlock(new EdgeCost(edge), edge.robust ? loss_.get() : nullptr, blocks_[a].data(),
-                               blocks_[b].data());
+      problem.AddResidualBlock(new EdgeCost(graph_, edge), edge.robust ? loss_.get() : nullptr,
+                               blocks_[a].data(), blocks_[b].data());
     }
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (!problem.HasParameterBlock(blocks_[i].data())) continue;
-      problem.SetManifold(blocks_[i].data(), &manifold_);
+      problem.SetManifold(blocks_[i].data(), manifold_.get());
       if (structure_.held[i]) problem.SetParameterBlockConstant(blocks_[i].data());
     }
   }
@@ -215,7 +269,7 @@ class PoseGraphProblem {
   const PoseGraphOptions& options_;
   PoseGraphStructure structure_;
   std::unique_ptr<ceres::LossFunction> loss_;
-  VertexManifold manifold_;
+  std::unique_ptr<ceres::Manifold> manifold_;
   std::vector<Rigid3> poses_;
   std::vector<PoseBlock> blocks_;
 };

@@ -53,10 +53,10 @@ struct PoseGraphReport {
 /// Moves the vertices of `graph` to the minimum of sum_k rho_k(e_k^T information_k e_k), with the error of
 /// pose_graph_residual.h, by Levenberg-Marquardt over a sparse Cholesky factorisation. Holds the vertices in
 /// `graph.fixed` and, in each connected part without one, the first vertex, because parts cannot be placed
-/// relative to each other. A vertex without edges is not moved. `progress` (may be null) gets one update for
-/// each iteration and may stop it; the best poses so far are kept. One thread, deterministic. Throws
-/// PreconditionError if an option is out of range, an id occurs twice, an edge or a fixed id names an unknown
-/// vertex, or an edge joins a vertex to itself.
+/// relative to each other. A vertex without edges is not moved; vertices of a planar graph stay in the plane.
+/// `progress` (may be null) gets one update for each iteration and may stop it; the best poses so far are
+/// kept. One thread, deterministic. Throws PreconditionError if an option is out of range, an id occurs
+/// twice, an edge or a fixed id names an unknown vertex, or an edge joins a vertex to itself.
 PoseGraphReport optimize_pose_graph(PoseGraph& graph, const PoseGraphOptions& options = {},
                                     Progress* progress = nullptr);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/optimize/pose_graph_residual.h"
 
+#include <cmath>
 #include <numeric>
 
 #include "cairn/core/error.h"
@@ -28,6 +29,19 @@ Vector6d pose_graph_error(const Rigid3& world_from_a, const Rigid3& world_from_b
   return error;
 }
 
+Vector6d planar_graph_error(const Rigid3& world_from_a, const Rigid3& world_from_b, const Rigid3& a_from_b) {
+  const Eigen::Quaterniond rotation = rotation_error(world_from_a, world_from_b, a_from_b);
+  Vector6d error = pose_graph_error(world_from_a, world_from_b, a_from_b);
+  error.tail<3>() << 0, 0, 2 * std::atan2(rotation.z(), rotation.w());
+  return error;
+}
+
+Vector6d edge_error(const PoseGraph& graph, const PoseGraph::Edge& edge, const Rigid3& world_from_a,
+                    const Rigid3& world_from_b) {
+  return graph.planar ? planar_graph_error(world_from_a, world_from_b, edge.a_from_b)
+                      : pose_graph_error(world_from_a, world_from_b, edge.a_from_b);
+}
+
 Rigid3 perturb_vertex(const Vector6d& xi, const Rigid3& world_from_vertex) {
   return {(rotation_exp(xi.head<3>()) * world_from_vertex.rotation).normalized(),
           world_from_vertex.translation + xi.tail<3>()};
@@ -50,6 +64,17 @@ PoseGraphJacobians pose_graph_jacobians(const Rigid3& world_from_a, const Rigid3
   return jacobians;
 }
 
+PoseGraphJacobians planar_graph_jacobians(const Rigid3& world_from_a, const Rigid3& world_from_b,
+                                          const Rigid3& a_from_b) {
+  const PoseGraphJacobians spatial = pose_graph_jacobians(world_from_a, world_from_b, a_from_b);
+  PoseGraphJacobians jacobians{Matrix6d::Zero(), Matrix6d::Zero()};
+  jacobians.by_a.block<2, 3>(0, 2) = spatial.by_a.block<2, 3>(0, 2);
+  jacobians.by_b.block<2, 3>(0, 2) = spatial.by_b.block<2, 3>(0, 2);
+  jacobians.by_a(5, 2) = -1;
+  jacobians.by_b(5, 2) = 1;
+  return jacobians;
+}
+
 std::vector<double> edge_chi2(const PoseGraph& graph) {
   const auto positions = vertex_positions(graph);
   std::vector<double> result;
@@ -57,8 +82,8 @@ std::vector<double> edge_chi2(const PoseGraph& graph) {
   for (const PoseGraph::Edge& edge : graph.edges) {
     const auto a = positions.find(edge.a), b = positions.find(edge.b);
     require(a != positions.end() && b != positions.end(), "edges join vertices of the graph");
-    const Vector6d error = pose_graph_error(graph.vertices[a->second].world_from_vertex,
-                                            graph.vertices[b->second].world_from_vertex, edge.a_from_b);
+    const Vector6d error = edge_error(graph, edge, graph.vertices[a->second].world_from_vertex,
+                                      graph.vertices[b->second].world_from_vertex);
     result.push_back(error.dot(edge.information * error));
   }
   return result;

@@ -17,6 +17,15 @@ namespace cairn {
 [[nodiscard]] Vector6d pose_graph_error(const Rigid3& world_from_a, const Rigid3& world_from_b,
                                         const Rigid3& a_from_b);
 
+/// Computes the error of one edge of a planar graph as g2o defines it (EdgeSE2): as pose_graph_error, but
+/// (0, 0, angle of q_E) in the place of its vector part, radians in (-pi, pi].
+[[nodiscard]] Vector6d planar_graph_error(const Rigid3& world_from_a, const Rigid3& world_from_b,
+                                          const Rigid3& a_from_b);
+
+/// Computes the error of an edge of `graph` if its vertices had these poses.
+[[nodiscard]] Vector6d edge_error(const PoseGraph& graph, const PoseGraph::Edge& edge,
+                                  const Rigid3& world_from_a, const Rigid3& world_from_b);
+
 /// Moves a vertex by the optimiser's step xi = (w, v): exp(w) * R and t + v. The rotation is perturbed on the
 /// left, in the world; the translation is not rotated with it (unlike perturb_left), so that the problem's
 /// conditioning does not depend on the distance of the graph from the world's origin.
@@ -38,6 +47,11 @@ struct PoseGraphJacobians {
 /// because q_E(w_b) = q_ab^-1 q_a^-1 exp(w_b) q_b = exp(M w_b) q_E, and exp(-M w_a) q_E for a.
 [[nodiscard]] PoseGraphJacobians pose_graph_jacobians(const Rigid3& world_from_a, const Rigid3& world_from_b,
                                                       const Rigid3& a_from_b);
+
+/// Computes the derivatives of planar_graph_error by steps within the plane: by w_z, v_x and v_y. Columns of
+/// other steps are 0.
+[[nodiscard]] PoseGraphJacobians planar_graph_jacobians(const Rigid3& world_from_a,
+                                                        const Rigid3& world_from_b, const Rigid3& a_from_b);
 
 /// Computes e^T * information * e of each edge, without robust kernel, in order. Throws PreconditionError if
 /// an edge names an unknown vertex.

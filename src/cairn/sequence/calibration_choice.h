@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Private to this room: which calibration a sequence gets.
 #pragma once
 
 #include <filesystem>
@@ -22,7 +21,8 @@ struct ChosenCalibration {
 };
 
 /// Chooses in the order of who may say: --camera, camera.yaml in the folder, one of another program there
-/// unless the format carries its own. Throws InputError for any defect.
+/// unless the format carries its own. `folder` may be one image, beside which nothing is looked for. Throws
+/// InputError for any defect.
 [[nodiscard]] ChosenCalibration choose_calibration(const std::filesystem::path& folder,
                                                    const SequenceOptions& options);
 

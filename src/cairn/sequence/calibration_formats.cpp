@@ -74,6 +74,7 @@ std::optional<fs::path> find_foreign_calibration(const fs::path& folder) {
       "intrinsics.json", "intrinsic.json",   "camera_intrinsic.json", "camera_intrinsics.json",
       "camera.json",     "cameras.txt",      "sparse/0/cameras.txt"};
   std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return std::nullopt;
   if (const fs::path left = folder / "left.yaml"; fs::is_regular_file(left, ignored) && right_beside(left))
     return left;
   for (const fs::path& file : files_in(folder)) {

@@ -54,7 +54,7 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 class CalibrationFormatsTest : public testing::Test, protected RecordingFolder {
  protected:
   [[nodiscard]] Calibration read(const std::string& name, const std::string& text) const {
-    return read_calibration(write(name.c_str(), text));
+    return read_calibration(write(name, text));
   }
   void expect_plain(const std::string& name, const std::string& text) const {
     EXPECT_EQ(format_calibration(read(name, text)), format_calibration(read("camera.yaml", kPlain))) << text;
