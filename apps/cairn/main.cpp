@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cairn/core/error.h"
-#include "cairn/core/text.h"
+#include "cairn/core/suggestion.h"
 #include "commands.h"
 
 namespace {
@@ -55,8 +55,8 @@ void print_usage(std::FILE* stream) {
 int unknown_command(std::string_view name) {
   std::vector<std::string> names;
   for (const auto& command : kCommands) names.emplace_back(command.name);
-  fmt::print(stderr, "cairn: '{}' is no command. Did you mean '{}'? 'cairn --help' lists them all.\n", name,
-             cairn::nearest_name(name, names));
+  fmt::print(stderr, "cairn: '{}' is no command. {}\n", name,
+             cairn::suggestion(name, names, "'cairn --help' lists them all."));
   return 2;
 }
 

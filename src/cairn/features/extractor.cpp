@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "cairn/core/error.h"
-#include "cairn/core/text.h"
+#include "cairn/core/suggestion.h"
 #include "cairn/features/opencv_extractor.h"
 #include "cairn/features/orb.h"
 #include "cairn/features/sift.h"
@@ -27,7 +27,7 @@ bool is_own(const std::string& upper_name) {
 void check_name(const std::string& option, const std::string& name, const std::vector<std::string>& known) {
   if (std::find(known.begin(), known.end(), upper(name)) != known.end()) return;
   throw InputError({option, 0, fmt::format("one of {}", fmt::join(known, ", ")), fmt::format("'{}'", name),
-                    fmt::format("Did you mean '{}'?", nearest_name(upper(name), known))});
+                    suggestion(upper(name), known, "Choose one of these.")});
 }
 
 /// AKAZE describes only its own keypoints, ORB needs levels that SIFT's octaves are not, and ours describe

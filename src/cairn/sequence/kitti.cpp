@@ -27,9 +27,8 @@ std::vector<fs::path> images_in(const fs::path& folder) {
                       "KITTI's grey stereo pairs lie in image_0 (left) and image_1 (right)."});
   }
   std::vector<fs::path> images;
-  for (const fs::path& file : files_in(folder)) {
-    if (file.extension() == ".png" || file.extension() == ".jpg") images.push_back(file);
-  }
+  for (const fs::path& file : files_in(folder))
+    if (is_image_name(file)) images.push_back(file);
   return images;
 }
 

@@ -64,6 +64,16 @@ TEST_F(KittiTest, reads_frames_calibration_and_truth) {
   EXPECT_LT((last.world_from_camera * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 0, 5)).norm(), 1e-12);
 }
 
+TEST_F(KittiTest, images_may_have_extensions_in_capitals) {
+  for (const char* camera : {"image_0", "image_1"})
+    for (const char* name : {"000005", "000006", "000009"})
+      fs::rename(folder_ / camera / (std::string(name) + ".png"),
+                 folder_ / camera / (std::string(name) + ".PNG"));
+  const Sequence sequence = open_sequence(folder_);
+  ASSERT_EQ(sequence.frames.size(), 3U);
+  EXPECT_EQ(sequence.frames[2].color, folder_ / "image_0" / "000009.PNG");
+}
+
 TEST_F(KittiTest, names_without_leading_zeros_come_in_natural_order) {
   std::string times;
   for (const char* camera : {"image_0", "image_1"}) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cairn/core/error.h"
+#include "cairn/core/suggestion.h"
 #include "cairn/core/text.h"
 
 namespace cairn {
@@ -153,10 +154,11 @@ void SettingTable::fail_unknown(const Setting& setting) const {
   for (const Entry& entry : entries_) names.push_back(entry.row.name);
   for (const Entry& entry : entries_)
     if (!entry.former_name.empty()) names.push_back(entry.former_name);
-  const Entry* nearest = find(nearest_name(setting.key, names));
-  throw InputError(
-      {setting.source, setting.line, "the name of a parameter", fmt::format("'{}'", setting.key),
-       fmt::format("Did you mean '{}'?", nearest == nullptr ? std::string() : nearest->row.name)});
+  const std::string name = nearest_name(setting.key, names);
+  const Entry* nearest = are_alike(setting.key, name) ? find(name) : nullptr;
+  throw InputError({setting.source, setting.line, "the name of a parameter", fmt::format("'{}'", setting.key),
+                    nearest == nullptr ? "--help lists all parameters."
+                                       : fmt::format("Did you mean '{}'?", nearest->row.name)});
 }
 
 bool SettingTable::knows(const std::string& name) const {

@@ -178,7 +178,8 @@ constexpr Case kBroken[] = {
      "expected a plain value for 'count', found a list, a mapping or nothing.\n  Write name: value."},
     {"- count", 1,
      "expected a mapping of names to values, found another kind of YAML.\n  Write name: value."},
-    {"count: 1\n? [a]\n: 2", 2, "expected the name of a parameter, found ''.\n  Did you mean 'count'?"},
+    {"count: 1\n? [a]\n: 2", 2,
+     "expected the name of a parameter, found ''.\n  --help lists all parameters."},
     {"count: 1\n\tcheck: x: y", 2, "expected YAML, or lines key=value, found "},
     {"count: \"1", 1, "expected YAML, or lines key=value, found "},
 };

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cairn/sequence/yaml_mapping.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "cairn/core/error.h"
 #include "cairn/core/file.h"
-#include "cairn/core/text.h"
+#include "cairn/core/suggestion.h"
 
 namespace cairn {
 
@@ -40,7 +42,7 @@ void YamlMapping::check_keys(const std::vector<std::string>& known) const {
     const std::string key = item.first.IsScalar() ? item.first.Scalar() : "a list or mapping";
     if (!known.empty() && std::find(known.begin(), known.end(), key) == known.end()) {
       fail(item.first, fmt::format("a known key in '{}'", name_), fmt::format("'{}'", key),
-           fmt::format("Did you mean '{}'?", nearest_name(key, known)));
+           suggestion(key, known, fmt::format("Known are {}.", fmt::join(known, ", "))));
     }
     if (!seen.insert(key).second)
       fail(item.first, fmt::format("one '{}' in '{}'", key, name_), "two", "Delete one.");
