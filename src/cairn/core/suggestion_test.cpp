@@ -10,6 +10,7 @@ namespace {
 
 TEST(Suggestion, names_only_what_is_near) {
   EXPECT_EQ(suggestion("rihgt", {"left", "right"}, "No."), "Did you mean 'right'?");
+  EXPECT_EQ(suggestion("OBR", {"SIFT", "ORB"}, "No."), "Did you mean 'ORB'?");
   EXPECT_EQ(suggestion("fxx", {"fx", "fy"}, "No."), "Did you mean 'fx'?");
   EXPECT_EQ(suggestion("lever", {"left", "body_from_camera"}, "Known are two."), "Known are two.");
   EXPECT_EQ(suggestion("", {"a"}, "No."), "No.");

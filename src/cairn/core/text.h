@@ -69,7 +69,8 @@ class TextFile {
 /// most zeros comes first. A strict weak order in which two different names are never equal.
 [[nodiscard]] bool comes_naturally_before(std::string_view a, std::string_view b);
 
-/// Computes the number of letters to insert, delete or replace until one word is the other (Levenshtein).
+/// Computes the number of letters to insert, delete, replace or exchange with the next until one word is the
+/// other (Damerau 1964, each letter once).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// Returns the element of `known` with the smallest edit distance to `word`, for "did you mean".

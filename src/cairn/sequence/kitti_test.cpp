@@ -64,6 +64,25 @@ TEST_F(KittiTest, reads_frames_calibration_and_truth) {
   EXPECT_LT((last.world_from_camera * Eigen::Vector3d(0, 0, 1) - Eigen::Vector3d(1, 0, 5)).norm(), 1e-12);
 }
 
+TEST_F(KittiTest, colour_pairs_are_read_with_their_own_projections) {
+  const Sequence grey = open_sequence(folder_);
+  fs::rename(folder_ / "image_0", folder_ / "image_2");
+  fs::rename(folder_ / "image_1", folder_ / "image_3");
+  // 6 cm left of camera 0, 1 cm above and 3 mm behind: K t, with K of focal lengths 700 and 710
+  write("calib.txt", std::string(kLeft) + kRight +
+                         "P2: 700 0 300 42.9 0 710 100 7.4 0 0 1 0.003\n"
+                         "P3: 700 0 300 -307.1 0 710 100 7.4 0 0 1 0.003\n");
+  const Sequence color = open_sequence(folder_);
+  ASSERT_EQ(color.frames.size(), 3U);
+  EXPECT_EQ(color.frames[2].color, folder_ / "image_2" / "000009.png");
+  EXPECT_EQ(color.frames[2].right, folder_ / "image_3" / "000009.png");
+  EXPECT_NEAR(color.calibration.baseline.value(), 0.5, 1e-12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Rigid3 moved = grey.truth->at(i).world_from_camera.inverse() * color.truth->at(i).world_from_camera;
+    EXPECT_LT((moved.translation - Eigen::Vector3d(-0.06, -0.01, -0.003)).norm(), 1e-9);
+  }
+}
+
 TEST_F(KittiTest, images_may_have_extensions_in_capitals) {
   for (const char* camera : {"image_0", "image_1"})
     for (const char* name : {"000005", "000006", "000009"})
