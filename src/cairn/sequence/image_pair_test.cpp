@@ -27,7 +27,7 @@ TEST_F(ImagePairTest, is_a_sequence_of_one_frame) {
   EXPECT_EQ(sequence.calibration.camera.width, 8);
   EXPECT_EQ(sequence.calibration.camera.height, 6);
   const FrameLoader loader(sequence);
-  EXPECT_FLOAT_EQ(loader.load_depth(FrameId(0))(3, 2), 2.0F);
+  EXPECT_FLOAT_EQ(loader.load_depth(FrameId{0})(3, 2), 2.0F);
   EXPECT_EQ(open_image_pair(folder_ / "a.png", folder_ / "b.png", write("c.yaml", kSmallCamera))
                 .calibration.camera.cx,
             3.5);

@@ -208,7 +208,7 @@ Trajectory read_poses(const fs::path& path, const std::vector<std::int64_t>& sta
 /// Reads the calibration that the format carries. Returns camera_from_camera0.
 Rigid3 read_calib(const fs::path& path, const Pair& pair, const std::vector<fs::path>& images,
                   Calibration& calibration) {
-  const Rigid3 camera_from_camera0 = read_rig(path, pair, calibration);
+  Rigid3 camera_from_camera0 = read_rig(path, pair, calibration);
   const ImageSize size = size_of_images(images);
   calibration.camera.width = size.width;
   calibration.camera.height = size.height;

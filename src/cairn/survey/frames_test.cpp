@@ -9,8 +9,8 @@ namespace cairn {
 namespace {
 
 GivenPose turned_pose() {
-  Eigen::Quaterniond rotation(0.3, -0.5, 0.7, 0.2);
-  return {WorldFromCamera(Rigid3(rotation.normalized(), Eigen::Vector3d(5, -20, 1))), {}};
+  const Eigen::Quaterniond rotation(0.3, -0.5, 0.7, 0.2);
+  return {WorldFromCamera(Rigid3{rotation.normalized(), Eigen::Vector3d(5, -20, 1)}), {}};
 }
 
 TEST(StatedCovariance, is_that_of_the_perturbation_which_the_stated_error_is) {
@@ -18,7 +18,7 @@ TEST(StatedCovariance, is_that_of_the_perturbation_which_the_stated_error_is) {
   const Eigen::Vector3d c(1e-5, 2e-5, -3e-5), w(-2e-5, 1e-5, 4e-5);  // an error, small
   given.uncertainty = PoseUncertainty{c * c.transpose(), w * w.transpose(), c * w.transpose()};
   const Rigid3& stated = given.world_from_camera;
-  const Rigid3 is(rotation_exp(w) * stated.rotation, stated.translation + c);
+  const Rigid3 is{rotation_exp(w) * stated.rotation, stated.translation + c};
   const Vector6d error = left_perturbation(stated.inverse(), is.inverse());
   EXPECT_LT((stated_covariance(given) - error * error.transpose()).norm(), 1e-4 * error.squaredNorm());
 }
