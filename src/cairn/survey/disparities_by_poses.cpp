@@ -61,9 +61,7 @@ class Stretch {
   static void append_camera(const SurveyFrame& frame, BundleProblem& problem) {
     const bool is_fixed = !frame.given.uncertainty;
     if (!is_fixed) {
-      // Deviations that are zero, or not stated, count as 1e-6 radians and 1e-5 metres.
-      const Vector6d least = (Vector6d() << 1e-12, 1e-12, 1e-12, 1e-10, 1e-10, 1e-10).finished();
-      const Matrix6d covariance = stated_covariance(frame.given) + Matrix6d(least.asDiagonal());
+      const Matrix6d covariance = stated_covariance(frame.given) + Matrix6d(least_variances().asDiagonal());
       const Matrix6d information = covariance.inverse();
       problem.priors.push_back({static_cast<std::int32_t>(problem.camera_from_world.size()),
                                 frame.camera_from_world, 0.5 * (information + information.transpose())});

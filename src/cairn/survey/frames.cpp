@@ -30,6 +30,10 @@ Matrix6d stated_covariance(const GivenPose& given) {
   return camera_from_world * covariance * camera_from_world.transpose();
 }
 
+Vector6d least_variances() {
+  return (Vector6d() << 1e-12, 1e-12, 1e-12, 1e-10, 1e-10, 1e-10).finished();
+}
+
 void FrameBuffer::push_back(SurveyFrame&& frame) {
   require(frames_.empty() || frame.id.value == frames_.back().id.value + 1, "frames come in their order");
   frames_.push_back(std::move(frame));

@@ -52,6 +52,10 @@ struct SurveyFrame {
 /// is): rotation (radians), then centre (metres), in the camera's axes. Zero for what it does not state.
 [[nodiscard]] Matrix6d stated_covariance(const GivenPose& given);
 
+/// Returns the variances of a pose that count as none, in the order of stated_covariance: 1e-6 radians, 1e-5
+/// metres.
+[[nodiscard]] Vector6d least_variances();
+
 /// Holds the last frames, which have successive numbers.
 class FrameBuffer {
  public:

@@ -69,8 +69,9 @@ class PoseBundle {
   }
 
   void add_priors(KeyframeId first, const PoseNoise& noise) {
-    const Vector6d overconfidence = (noise.motion + kTiny).cwiseQuotient(noise.formal + kTiny);
-    const Vector6d information = overconfidence.cwiseQuotient(noise.given + kTiny);
+    const Vector6d least = least_variances();
+    const Vector6d overconfidence = (noise.motion + least).cwiseQuotient(noise.formal + least);
+    const Vector6d information = overconfidence.cwiseQuotient(noise.given + least);
     for (KeyframeId id = first; id <= frames_.back().id; ++id.value)
       problem_.priors.push_back(
           {camera_of(id), frames_[id].given.world_from_camera.inverse(), Matrix6d(information.asDiagonal())});
@@ -95,9 +96,6 @@ class PoseBundle {
   [[nodiscard]] std::int32_t camera_of(KeyframeId id) const { return id.value - begin_.value; }
 
  private:
-  /// Variances that count as none: 1e-6 radians, 1e-5 metres.
-  inline static const Vector6d kTiny = (Vector6d() << 1e-12, 1e-12, 1e-12, 1e-10, 1e-10, 1e-10).finished();
-
   const FrameBuffer& frames_;
   KeyframeId begin_;
   BundleProblem problem_;
